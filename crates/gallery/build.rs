@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 type Problem = Box<dyn std::error::Error>;
 
+/// The folder of models that cannot be read, which are for tests.
+const WRONG: &str = "wrong";
+
 fn main() -> Result<(), Problem> {
     let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery");
     println!("cargo:rerun-if-changed={}", gallery.display());
@@ -15,12 +18,20 @@ fn main() -> Result<(), Problem> {
             entry(&mut code, &name, &folder)?;
             continue;
         }
-        // A group: folders of models that include each other's files.
+        // A group: folders of models that may include each other's files, or models of one file each.
         let members = folders(&folder)?;
         if members.iter().any(|own| own.join("model.toml").is_file()) {
+            entry(&mut code, &name, &folder)?;
             for own in members {
                 let member = own.file_name().unwrap_or_default().to_string_lossy();
                 entry(&mut code, &format!("{name}/{member}"), &own)?;
+            }
+        } else if name != WRONG {
+            for file in texts(&folder)? {
+                let member = file.file_stem().unwrap_or_default().to_string_lossy();
+                writeln!(code, "Entry {{ name: \"{name}/{member}\", files: &[")?;
+                text(&mut code, "model.toml", &file)?;
+                writeln!(code, "] }},")?;
             }
         }
     }
@@ -44,23 +55,27 @@ fn folders(parent: &Path) -> Result<Vec<PathBuf>, Problem> {
 
 fn entry(code: &mut String, name: &str, folder: &Path) -> Result<(), Problem> {
     writeln!(code, "Entry {{ name: {name:?}, files: &[")?;
+    for file in texts(folder)? {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        text(code, &name, &file)?;
+    }
+    writeln!(code, "] }},")?;
+    Ok(())
+}
+
+/// Models and descriptions of a folder, in the order of their names.
+fn texts(folder: &Path) -> Result<Vec<PathBuf>, Problem> {
     let mut files: Vec<_> = std::fs::read_dir(folder)?
         .filter_map(Result::ok)
         .map(|e| e.path())
+        .filter(|f| f.extension().is_some_and(|e| e == "toml" || e == "md"))
         .collect();
     files.sort();
-    for file in files
-        .iter()
-        .filter(|f| f.extension().is_some_and(|e| e == "toml" || e == "md"))
-    {
-        let name = file.file_name().unwrap_or_default().to_string_lossy();
-        let path = file.canonicalize()?;
-        writeln!(
-            code,
-            "({name:?}, include_str!({:?})),",
-            path.display().to_string()
-        )?;
-    }
-    writeln!(code, "] }},")?;
+    Ok(files)
+}
+
+fn text(code: &mut String, name: &str, file: &Path) -> Result<(), Problem> {
+    let path = file.canonicalize()?.display().to_string();
+    writeln!(code, "({name:?}, include_str!({path:?})),")?;
     Ok(())
 }

@@ -22,10 +22,12 @@ from .errors import (
     NotDerivedError,
     OptionError,
 )
+from .functional import Functional
 from .system import System
 
 __all__ = [
     "ChetaevError",
+    "Functional",
     "Interrupted",
     "ModelError",
     "ModelWarning",

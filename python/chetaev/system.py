@@ -118,12 +118,7 @@ class System:
     @classmethod
     def from_gallery(cls, name: str, *, set: Mapping[str, Value] | None = None) -> System:
         """A model that comes with Chetaev; ``chetaev.gallery.list()`` names them."""
-        texts = native.gallery(name)[1]
-        group, _, member = name.rpartition("/")
-        own = f"{member}/model.toml" if group else "model.toml"
-        main = dict(texts)[own]
-        includes = [(os.path.normpath(path).replace(os.sep, "/"), text) for path, text in texts if path != own]
-        return cls.__new__(cls)._take(native.Model.from_texts(own, main, includes, _pairs(set)))
+        return cls.__new__(cls)._take(native.Model.from_texts(*of_gallery(name), _pairs(set)))
 
     @classmethod
     def from_sympy(
@@ -540,6 +535,14 @@ def _again(cls: type[System], path: str, text: str, includes: Any, overrides: An
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)
         return cls.__new__(cls)._take(native.Model.from_texts(path, text, includes, overrides))
+
+
+def of_gallery(name: str) -> tuple[str, str, list[tuple[str, str]]]:
+    """Path, text and the files beside it of a model of the gallery."""
+    texts = dict(native.gallery(name)[1])
+    inside = f"{name.rpartition('/')[2]}/model.toml"
+    own = inside if inside in texts else "model.toml"
+    return own, texts[own], list(texts.items())
 
 
 def _pairs(values: Mapping[str, Value] | None) -> list[tuple[str, str]]:

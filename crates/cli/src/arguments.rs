@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Decide every claim, compute the motion, write report.html, study.json and the trajectory
     Study(Study),
-    /// Derive the equations of motion and print them
+    /// Derive the equations of motion, or the Euler equations of a functional, and print them
     Derive(Derive),
     /// Tell what the variational principles say of a system; compare its motion with the constrained extremum
     Principles(Principles),
@@ -72,6 +72,7 @@ pub(crate) struct ModelArguments {
 #[command(after_help = "Examples:
   chetaev study gallery/chaplygin-sleigh/model.toml
   chetaev study gallery/trailer/model.toml --set n=8 --out out/trailer-8
+  chetaev study gallery/elasticity/p4p/model.toml --set d=2
   chetaev study model.toml --claims model,formulations --budget 10
   chetaev study model.toml --show integrals
   chetaev study model.toml --t-end 100 --tolerance 1e-12 --json")]
@@ -210,6 +211,7 @@ pub(crate) struct Stability {
   chetaev derive model.toml --formulation voronets --as latex
   chetaev derive model.toml --formulation canonical --as c > canonical.c
   chetaev derive model.toml --compare voronets gibbs-appell
+  chetaev derive gallery/fields/plate/model.toml
   chetaev derive model.toml --all")]
 pub(crate) struct Derive {
     #[command(flatten)]
@@ -515,7 +517,8 @@ pub(crate) struct Verify {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   chetaev new my-robot && chetaev study my-robot/model.toml
-  chetaev new my-robot --from bodies")]
+  chetaev new my-robot --from bodies
+  chetaev new my-plate --from functional")]
 pub(crate) struct New {
     /// Folder to create
     pub(crate) folder: PathBuf,
@@ -544,6 +547,8 @@ pub(crate) struct Import {
 pub(crate) enum Beginning {
     /// Bodies, joints and contacts
     Bodies,
+    /// Fields over space and densities, of which the Euler equations are sought
+    Functional,
     /// Coordinates, energies and constraints
     Lagrangian,
 }
@@ -553,6 +558,7 @@ pub(crate) enum Beginning {
   chetaev gallery
   chetaev gallery describe snakeboard
   chetaev gallery copy snakeboard my-snakeboard
+  chetaev gallery copy elasticity/p4p
   chetaev gallery list --json")]
 pub(crate) struct Gallery {
     #[command(subcommand)]

@@ -26,17 +26,52 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     models().find(|entry| entry.name == name)
 }
 
+/// What a model is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A mechanical system that moves.
+    Motion,
+    /// A functional of fields over space.
+    Functional,
+}
+
+impl Kind {
+    /// `motion`, `functional`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Kind::Motion => "motion",
+            Kind::Functional => "functional",
+        }
+    }
+}
+
 impl Entry {
-    /// The description.
+    /// The description: its own file, or the comment that the model begins with.
     pub fn readme(&self) -> &'static str {
-        let readme = self.files.iter().find(|(file, _)| *file == "README.md");
-        readme.map_or("no description\n", |(_, text)| text)
+        let text = |name: &str| {
+            let found = self.files.iter().find(|(file, _)| *file == name);
+            found.map(|(_, text)| *text)
+        };
+        let comment = || {
+            let model = text("model.toml")?;
+            let lines = model.split_inclusive('\n');
+            let end: usize = lines
+                .take_while(|line| line.starts_with('#'))
+                .map(str::len)
+                .sum();
+            model.get(..end).filter(|comment| !comment.is_empty())
+        };
+        text("README.md")
+            .or_else(comment)
+            .unwrap_or("no description\n")
     }
 
-    /// The first line of the description.
+    /// The first line of the description; of several sentences the first.
     pub fn title(&self) -> &'static str {
         let first = self.readme().lines().next().unwrap_or("");
-        first.trim_start_matches('#').trim()
+        let title = first.trim_start_matches('#').trim();
+        let sentence = title.split(". ").next().unwrap_or(title);
+        sentence.strip_suffix('.').unwrap_or(sentence)
     }
 
     /// Whether it has a model, and not only what others include.
@@ -44,33 +79,63 @@ impl Entry {
         self.files.iter().any(|(file, _)| *file == "model.toml")
     }
 
+    /// What it is about, as it says or as a file says that its group shares.
+    pub fn kind(&self) -> Kind {
+        let says = |(_, text): &(String, &str)| {
+            let mut lines = text.lines();
+            lines.any(|line| line.replace(' ', "") == "kind=\"functional\"")
+        };
+        match self.copied().iter().any(says) {
+            true => Kind::Functional,
+            false => Kind::Motion,
+        }
+    }
+
     /// The group that it belongs to, and its name in it.
     pub fn group(&self) -> Option<(&'static str, &'static str)> {
         self.name.split_once('/')
     }
 
-    /// Name, title and names of the files.
+    /// Name, title, kind and names of the files.
     pub fn to_json(&self) -> serde_json::Value {
         let files: Vec<&str> = self.files.iter().map(|(file, _)| *file).collect();
-        serde_json::json!({"name": self.name, "title": self.title(), "files": files})
+        let kind = self.kind().word();
+        serde_json::json!({"name": self.name, "title": self.title(), "kind": kind, "files": files})
     }
 
-    /// What a copy consists of, paths and contents: models of a group name each other's files, and so all of the group is.
+    /// The group whose files it names.
+    fn needed(&self) -> Option<&'static str> {
+        let (group, _) = self.group()?;
+        let is_outside = |(_, text): &(&str, &str)| text.contains("\"../");
+        self.files.iter().any(is_outside).then_some(group)
+    }
+
+    /// Where its model stands among the files of a copy.
+    pub fn model_path(&self) -> String {
+        match (self.needed(), self.group()) {
+            (Some(_), Some((_, member))) => format!("{member}/model.toml"),
+            _ => "model.toml".to_owned(),
+        }
+    }
+
+    /// What a copy consists of, paths and contents: all of its group where it names files of others.
     pub fn copied(&self) -> Vec<(String, &'static str)> {
-        let Some((group, _)) = self.group() else {
+        let Some(group) = self.needed() else {
             let own = self.files.iter();
             return own
                 .map(|(name, text)| ((*name).to_owned(), *text))
                 .collect();
         };
-        let members = ENTRIES.iter().filter_map(|e| Some((e, e.group()?)));
-        members
-            .filter(|(_, (own, _))| *own == group)
-            .flat_map(|(e, (_, member))| {
-                e.files
-                    .iter()
-                    .map(move |(name, text)| (format!("{member}/{name}"), *text))
-            })
-            .collect()
+        let mut all = Vec::new();
+        for entry in ENTRIES {
+            let folder = match entry.group() {
+                Some((own, member)) if own == group => format!("{member}/"),
+                None if entry.name == group => String::new(),
+                _ => continue,
+            };
+            let own = entry.files.iter();
+            all.extend(own.map(|(name, text)| (format!("{folder}{name}"), *text)));
+        }
+        all
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
 //!
-//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function;
+//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function; `functional`: a functional over space;
 //! - `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
 
 mod compiled;
+mod functional;
 mod linear;
 mod model;
 mod outcome;
@@ -19,6 +20,8 @@ use pyo3::prelude::*;
 mod chetaev_native {
     #[pymodule_export]
     use crate::compiled::{Compiled, Function};
+    #[pymodule_export]
+    use crate::functional::Functional;
     #[pymodule_export]
     use crate::linear::Linear;
     #[pymodule_export]

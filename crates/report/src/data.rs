@@ -79,10 +79,29 @@ pub struct Table {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TableRow {
-    /// One text for each column.
-    pub cells: Vec<String>,
+    /// One cell for each column.
+    pub cells: Vec<Cell>,
     /// The row that the page is about.
     pub is_marked: bool,
+}
+
+/// What stands in a cell of a table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Cell {
+    /// A text.
+    pub text: String,
+    /// Formulas behind it, separated by commas.
+    pub formulas: Vec<Formula>,
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Cell {
+        Cell {
+            text: text.to_owned(),
+            formulas: Vec::new(),
+        }
+    }
 }
 
 /// A function of two variables on a rectangle, drawn in shades.
@@ -235,6 +254,8 @@ pub struct EquationSection {
     pub claim: Option<String>,
     /// Shown closed, opened by the reader; for long material.
     pub collapsed: bool,
+    /// Whether the page leaves out its own numbers, as the equations have numbers of theirs.
+    pub is_unnumbered: bool,
 }
 
 /// One typeset equation.

@@ -111,16 +111,16 @@ pub(crate) fn sections(html: &mut Html, report: &Report, words: &Words) {
         let close = if section.collapsed {
             html.raw("<details class=\"equations\"")
                 .attribute("id", anchor)
-                .wrap(
-                    "><summary><h3>",
-                    &section.title,
-                    "</h3></summary>\n<template>",
-                );
+                .raw("><summary><h3>");
+            sentence(html, &section.title);
+            html.raw("</h3></summary>\n<template>");
             "</template></details>\n"
         } else {
             html.raw("<div class=\"equations\"")
                 .attribute("id", anchor)
-                .wrap("><h3>", &section.title, "</h3>\n");
+                .raw("><h3>");
+            sentence(html, &section.title);
+            html.raw("</h3>\n");
             "</div>\n"
         };
         body(html, section, &mut number, report, words);
@@ -167,7 +167,8 @@ fn body(
         html.raw("<div class=\"equation\"")
             .attribute("id", format!("equation-{number}"))
             .raw(">");
-        equation_body(html, equation, Some(*number), words);
+        let shown = (!section.is_unnumbered).then_some(*number);
+        equation_body(html, equation, shown, words);
         html.raw("</div>\n");
         definitions(html, &equation.definitions, words);
     }

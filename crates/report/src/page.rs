@@ -89,7 +89,9 @@ fn navigation(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &W
             html.raw(level)
                 .raw("<a")
                 .attribute("href", fragment(target))
-                .wrap(">", label, "</a></li>\n");
+                .raw(">");
+            sentence(html, label);
+            html.raw("</a></li>\n");
         }
     };
     let (top, below) = ("<li>", "<li class=\"below\">");
@@ -136,7 +138,7 @@ fn title(html: &mut Html, report: &Report, words: &Words) {
     if let Some(subtitle) = &report.subtitle {
         html.wrap("<p class=\"subtitle\">", subtitle, "</p>\n");
     }
-    html.paragraphs(&report.description);
+    paragraphs(html, &report.description);
     if !report.claims.is_empty() {
         html.raw("<p class=\"summary\"><a href=\"#claims\">")
             .text(fill(words.claim_count, &[&report.claims.len().to_string()]))

@@ -4,7 +4,7 @@ mod arrays;
 mod code;
 mod comparison;
 mod count;
-mod latex;
+pub(crate) mod latex;
 mod printed;
 
 use crate::derivation::{derivation, Derivation, NotDerived, Readings};

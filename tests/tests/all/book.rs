@@ -241,3 +241,78 @@ fn links_resolve() {
         }
     }
 }
+
+/// Fenced blocks of a page with their language.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let parts: Vec<&str> = page.split("```").collect();
+    let fenced = parts.iter().skip(1).step_by(2);
+    fenced.filter_map(|part| part.split_once('\n')).collect()
+}
+
+/// The lines of a whole model with a line in the place of the one that has the same key.
+fn replaced(model: &str, line: &str) -> String {
+    let key = |line: &str| line.split_once(" = ").map(|(key, _)| key.to_owned());
+    assert!(model.lines().any(|own| key(own) == key(line)), "{line}");
+    let own = model.lines().map(|own| match key(own) == key(line) {
+        true => line,
+        false => own,
+    });
+    own.collect::<Vec<_>>().join("\n")
+}
+
+/// The chapter on functionals: every whole model is studied, every single line is put into the model before it, in the place of the one that has the same key,
+/// and what is printed stands beside it, line for line.
+#[test]
+fn functionals_of_the_book_give_what_stands_beside_them() {
+    let page = read(&book().join("functionals.md"));
+    let folder = chetaev_tests::places::scratch("book-functionals");
+    let model = folder.join("model.toml");
+    let (mut whole, mut last): (Vec<String>, Option<String>) = (Vec::new(), None);
+    let (mut count, mut fragments) = (0, Vec::new());
+    for (language, text) in blocks(&page) {
+        match language {
+            "toml" if text.starts_with("kind = ") => {
+                whole.push(text.to_owned());
+                last = Some(text.to_owned());
+            }
+            "toml" if text.lines().count() == 1 => {
+                let before = whole.last().expect("a model before it");
+                last = Some(replaced(before, text.trim_end()));
+            }
+            "text" => {
+                let text = text.strip_prefix("$ chetaev ").expect("a command");
+                let (command, output) = text.split_once('\n').expect("its output");
+                let own = last.as_ref().expect("a model before it");
+                std::fs::write(&model, own).expect("a scratch file");
+                let finished = chetaev_tests::program::run_in(
+                    &folder,
+                    &command.split_whitespace().collect::<Vec<_>>(),
+                );
+                let all = finished.both();
+                let mut printed = all.lines();
+                for line in output.lines().filter(|line| *line != "…") {
+                    assert!(
+                        printed.any(|own| own.trim_end() == line.trim_end()),
+                        "`{line}` is not printed there by {command}\n{all}"
+                    );
+                }
+                count += 1;
+            }
+            "toml" => fragments.push(text.to_owned()),
+            _ => {}
+        }
+    }
+    assert_eq!((whole.len(), count), (2, 7));
+    // Fragments are those of models of the gallery.
+    let gallery: Vec<String> = ["bar", "loaded-membrane"]
+        .iter()
+        .map(|name| read(&root().join(format!("gallery/fields/{name}/model.toml"))))
+        .collect();
+    for line in fragments.iter().flat_map(|text| text.lines()) {
+        let line = line
+            .trim_start_matches("fields = { ")
+            .trim_end_matches(" }");
+        let is_there = gallery.iter().any(|own| own.contains(line));
+        assert!(is_there, "{line} is in no model of the gallery");
+    }
+}

@@ -229,11 +229,18 @@ fn what_a_program_reads_is_json() {
     let models = ok(&["gallery", "list", "--json"]).json();
     assert_eq!(models, ok(&["gallery", "--json"]).json());
     let names = models.as_array().expect("a list").iter();
-    let is_motion =
-        |model: &&serde_json::Value| model["name"].as_str().is_some_and(|n| !n.contains('/'));
-    assert_eq!(names.clone().filter(is_motion).count(), gallery().len());
+    let of_kind = |kind: &str, is_grouped: bool| {
+        let own = names.clone().filter(|model| {
+            let name = model["name"].as_str().expect("a name");
+            model["kind"] == kind && name.contains('/') == is_grouped
+        });
+        own.count()
+    };
+    assert_eq!(of_kind("motion", false), gallery().len());
     // The multi-level principles; classical functionals, and those of Noether's theorem, Jacobi's condition and Ritz's method.
-    assert_eq!(names.filter(|model| !is_motion(model)).count(), 26 + 6 + 7);
+    assert_eq!(of_kind("functional", true), 26 + 6 + 7);
+    let bodies = std::fs::read_dir(root().join("gallery/bodies")).expect("models of bodies");
+    assert_eq!(of_kind("motion", true), bodies.count());
     let described = ok(&["gallery", "describe", "trailer", "--json"]).json();
     assert_eq!(
         described["files"],
@@ -641,6 +648,24 @@ fn a_new_model_studies_at_once() {
 }
 
 #[test]
+fn new_models_of_bodies_and_of_functionals_study_at_once() {
+    let folder = scratch("new-kinds");
+    for kind in ["bodies", "functional"] {
+        let made = run_in(&folder, &["new", kind, "--from", kind]);
+        assert_eq!(made.status, Some(0), "{}", made.both());
+        let model = format!("{kind}/model.toml");
+        let command = if kind == "functional" {
+            "study"
+        } else {
+            "check"
+        };
+        let finished = run_in(&folder, &[command, &model]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        assert!(finished.err.is_empty(), "{}", finished.both());
+    }
+}
+
+#[test]
 fn names_with_special_letters_make_a_right_template() {
     let folder = scratch("new-names");
     for name in ["Röllchen 2", "a\"b", "back\\slash"] {
@@ -686,6 +711,17 @@ fn the_gallery_is_in_the_program() {
                 copy.display()
             );
         }
+    }
+    // What a functional of a group names is copied with it; a model of bodies stands alone.
+    for (name, model) in [
+        ("elasticity/p3p1", "p3p1/p3p1/model.toml"),
+        ("fields/plate", "plate/model.toml"),
+        ("bodies/four-bar", "four-bar/model.toml"),
+    ] {
+        let copied = run_in(&folder, &["gallery", "copy", name]);
+        assert!(copied.out.contains(model), "{}", copied.both());
+        let checked = run_in(&folder, &["check", model]);
+        assert_eq!(checked.status, Some(0), "{name}: {}", checked.both());
     }
     let copied = run_in(
         &folder,

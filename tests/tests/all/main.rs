@@ -15,6 +15,7 @@ mod ensembles;
 mod events;
 mod first_integrals;
 mod formulations;
+mod functionals;
 mod gallery;
 mod gallery_formulations;
 mod higher_order;

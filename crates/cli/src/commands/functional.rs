@@ -3,10 +3,8 @@
 use super::error;
 use crate::arguments::{Notation, Study as Arguments};
 use crate::{files, terminal, DONE, INPUT, UNMET};
-use chetaev::functionals::claims::CLAIMS;
 use chetaev::functionals::{self, Loaded, Study};
-use chetaev::study::explanation::nearest;
-use chetaev::study::functional::{derivation, page, record, summary};
+use chetaev::study::functional::{derivation, is_selected, page, record, selected, summary};
 use chetaev::study::record::WrittenRecord;
 use std::path::Path;
 use std::time::Instant;
@@ -20,20 +18,19 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
     let Some(problem) = loaded.problem else {
         return INPUT;
     };
-    let Some(words) = asked(arguments) else {
-        return INPUT;
+    let words = match selected(arguments.claims.as_deref().unwrap_or("")) {
+        Ok(words) => words,
+        Err(problem) => {
+            error(format!("--claims: {problem}"));
+            return INPUT;
+        }
     };
     let folder = arguments
         .out
         .clone()
         .unwrap_or_else(|| files::default_folder(&arguments.model.model));
     let start = Instant::now();
-    let wants = |id: &str| {
-        words.is_empty()
-            || words
-                .iter()
-                .any(|w| w == id || id.starts_with(&format!("{w}.")))
-    };
+    let wants = |id: &str| is_selected(&words, id);
     let study = functionals::study(problem, &wants, &|| start.elapsed().as_secs_f64());
     let json = match write_all(&study, &words, &folder) {
         Ok(json) => json,
@@ -79,31 +76,6 @@ pub(super) fn check(loaded: &Loaded, as_json: bool) -> u8 {
         ));
     }
     DONE
-}
-
-/// Claims that were asked for, by id; empty for all. Prints what is wrong with them.
-fn asked(arguments: &Arguments) -> Option<Vec<String>> {
-    let text = arguments.claims.as_deref().unwrap_or("");
-    let words: Vec<String> = text
-        .split(',')
-        .map(str::trim)
-        .filter(|w| !w.is_empty())
-        .map(str::to_owned)
-        .collect();
-    let ids = || CLAIMS.iter().map(|c| c.id());
-    let unknown = words
-        .iter()
-        .find(|w| *w != "functional" && ids().all(|id| id != w.as_str()));
-    match unknown {
-        None => Some(words),
-        Some(word) => {
-            error(format!(
-                "--claims: `{word}` is neither the group functional nor a claim about functionals{}",
-                nearest(word, ids())
-            ));
-            None
-        }
-    }
 }
 
 fn json(study: &Study, words: &[String], files: &[WrittenRecord]) -> String {

@@ -4,7 +4,7 @@ use super::error;
 use crate::arguments::{Gallery as Arguments, GalleryAction};
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::symbolic::syntax::names;
-use chetaev_gallery::{find, models, Entry};
+use chetaev_gallery::{find, models, Entry, Kind};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
@@ -39,20 +39,36 @@ fn list(json: bool) -> u8 {
         print(&serde_json::json!(all));
         return DONE;
     }
-    for entry in models().filter(|entry| entry.group().is_none()) {
-        terminal::out(&format!("{:<24} {}\n", entry.name, entry.title()));
-    }
-    let mut last = "";
-    for entry in models() {
-        let Some((group, _)) = entry.group() else {
-            continue;
-        };
-        if group != last {
-            terminal::out(&format!("\n{group}: functionals of fields over space\n"));
-            last = group;
+    let width = models().map(|entry| entry.name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    for (kind, heading) in [
+        (
+            Kind::Motion,
+            "Motions: Chetaev derives the equations of motion and follows them",
+        ),
+        (
+            Kind::Functional,
+            "Functionals over space: Chetaev derives Euler equations and boundary conditions",
+        ),
+    ] {
+        terminal::out(&format!("{heading}\n"));
+        let mut last = None;
+        // Those that stand alone, then group after group.
+        let mut own: Vec<&Entry> = models().filter(|entry| entry.kind() == kind).collect();
+        own.sort_by_key(|entry| entry.group().map(|(group, _)| group));
+        for entry in own {
+            let group = entry.group().map(|(group, _)| group);
+            if last.is_some_and(|last| last != group) {
+                terminal::out("\n");
+            }
+            last = Some(group);
+            terminal::out(&format!("  {:<width$}  {}\n", entry.name, entry.title()));
         }
-        terminal::out(&format!("{:<24} {}\n", entry.name, entry.title()));
+        if kind == Kind::Motion {
+            terminal::out("\n");
+        }
     }
+    terminal::out("\nchetaev gallery copy NAME writes one into a folder of its own; describe NAME tells about it\n");
     DONE
 }
 
@@ -98,10 +114,8 @@ fn copy(entry: &Entry, folder: &Path, json: bool) -> u8 {
         print(&data);
     } else {
         terminal::out(&format!("wrote {}\n", folder.display()));
-        if let Some((_, member)) = entry.group() {
-            let model = folder.join(member).join("model.toml");
-            terminal::out(&format!("the model is {}\n", model.display()));
-        }
+        let model = folder.join(entry.model_path());
+        terminal::out(&format!("try:  chetaev study {}\n", model.display()));
     }
     DONE
 }

@@ -6,6 +6,7 @@ use crate::{files, terminal, DONE, INPUT};
 
 const TEMPLATE: &str = include_str!("template.toml");
 const BODIES: &str = include_str!("bodies.toml");
+const FUNCTIONAL: &str = include_str!("functional.toml");
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let path = arguments.folder.join("model.toml");
@@ -24,6 +25,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let name = in_quotation_marks(name);
     let template = match arguments.from {
         Beginning::Bodies => BODIES,
+        Beginning::Functional => FUNCTIONAL,
         Beginning::Lagrangian => TEMPLATE,
     };
     match files::write(&path, template.replace("MY-SYSTEM", &name).as_bytes()) {

@@ -155,7 +155,9 @@ impl Writer<'_> {
             let own = self.node(factor, around);
             match (at, divides, self.format) {
                 (0, false, _) => {}
-                (_, true, Format::Mathml) => out.push_str("<mo>/</mo>"),
+                (_, true, Format::Mathml) => {
+                    out.push_str("<mo lspace=\"0\" rspace=\"0\">/</mo>");
+                }
                 (0, true, _) => out.push_str("1/"),
                 (_, true, _) => out.push('/'),
                 (_, false, Format::Mathml) => out.push_str("<mspace width=\"0.17em\"></mspace>"),
@@ -174,18 +176,9 @@ impl Writer<'_> {
             Format::Mathml => inside(&self.heads.mathml(e)),
             _ => atom.name.clone(),
         };
-        let primes = "'".repeat(atom.primes as usize);
-        let head = match (self.format, atom.primes) {
-            (_, 0) => head,
-            (Format::Mathml, n) => {
-                let all = "′".repeat(n as usize);
-                format!("<msup><mrow>{head}</mrow><mo>{all}</mo></msup>")
-            }
-            _ => format!("{head}{primes}"),
-        };
         let own = match &atom.argument {
             Some(argument) => {
-                let head = self.indexed(&head, &atom.indices, &[]);
+                let head = self.primed(&head, atom.primes as usize, &atom.indices);
                 let inner = format!("{head}{}", self.fenced(&self.node(argument, Binding::Sum)));
                 self.indexed(&inner, &[], &atom.derivatives)
             }
@@ -194,11 +187,27 @@ impl Writer<'_> {
         own
     }
 
-    /// What stands behind an underscore and behind the comma.
-    fn indexed(&self, head: &str, indices: &[Index], by: &[Index]) -> String {
-        if indices.is_empty() && by.is_empty() {
-            return head.to_owned();
+    /// The head of a function with its primes, and with indices below them.
+    fn primed(&self, head: &str, primes: usize, indices: &[Index]) -> String {
+        match (self.format, primes) {
+            (_, 0) => self.indexed(head, indices, &[]),
+            (Format::Mathml, _) => {
+                let all = format!("<mo lspace=\"0\" rspace=\"0\">{}</mo>", "′".repeat(primes));
+                let (below, _) = self.places(indices, &[]);
+                let below: String = below.iter().map(|own| format!("<mi>{own}</mi>")).collect();
+                match below.is_empty() {
+                    true => format!("<msup><mrow>{head}</mrow>{all}</msup>"),
+                    false => {
+                        format!("<msubsup><mrow>{head}</mrow><mrow>{below}</mrow>{all}</msubsup>")
+                    }
+                }
+            }
+            _ => self.indexed(&format!("{head}{}", "'".repeat(primes)), indices, &[]),
         }
+    }
+
+    /// Indices and derivatives as they are written.
+    fn places(&self, indices: &[Index], by: &[Index]) -> (Vec<String>, Vec<String>) {
         let one = |index: &Index, is_derivative: bool| match index {
             Index::Letter(letter) => letter.to_string(),
             Index::Place(at) if is_derivative => {
@@ -208,7 +217,15 @@ impl Writer<'_> {
             Index::Place(at) => (at + 1).to_string(),
         };
         let lower: Vec<String> = indices.iter().map(|i| one(i, false)).collect();
-        let behind: Vec<String> = by.iter().map(|i| one(i, true)).collect();
+        (lower, by.iter().map(|i| one(i, true)).collect())
+    }
+
+    /// What stands behind an underscore and behind the comma.
+    fn indexed(&self, head: &str, indices: &[Index], by: &[Index]) -> String {
+        if indices.is_empty() && by.is_empty() {
+            return head.to_owned();
+        }
+        let (lower, behind) = self.places(indices, by);
         match self.format {
             Format::Latex => {
                 let comma = if by.is_empty() { "" } else { "," };

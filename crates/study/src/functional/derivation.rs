@@ -1,6 +1,8 @@
 //! Euler equations and natural conditions in one notation: what `derive` prints of a functional.
 
-use super::{boundary, euler, indexed_euler, indexed_natural, options, Indexed, Shown};
+use super::shown::{boundary, euler, indexed_euler, indexed_natural, options, Indexed, Shown};
+use super::typesetting::{in_print, variation_name};
+use crate::written::latex::{escaped, BEGIN};
 use chetaev_functionals::functional::Functional;
 use chetaev_functionals::notation::written_equation;
 use chetaev_functionals::variation::{variation, VariationError};
@@ -28,6 +30,7 @@ pub fn derivation(functional: &Functional, format: Format) -> Result<String, Var
     Ok(match format {
         Format::Sympy => as_module(functional, &parts),
         Format::Json => as_json(functional, &parts),
+        Format::Latex => as_latex(functional, &parts),
         _ => parts
             .iter()
             .map(|part| part.text(functional, format))
@@ -69,7 +72,6 @@ impl Part {
 
 fn marked(line: &str, format: Format) -> String {
     match format {
-        Format::Latex => format!("% {line}\n"),
         Format::Mathml => format!("<!-- {} -->\n", line.replace("--", "‐‐")),
         _ => format!("{line}\n"),
     }
@@ -77,10 +79,116 @@ fn marked(line: &str, format: Format) -> String {
 
 fn labelled(of: &str, line: &str, format: Format) -> String {
     match format {
-        Format::Latex => format!("% {of}\n\\[ {line} \\]\n"),
         Format::Mathml => format!("<!-- {of} -->\n{line}\n"),
         _ => format!("  {of:<12} {line}\n"),
     }
+}
+
+/// A whole document.
+fn as_latex(functional: &Functional, parts: &[Part]) -> String {
+    let mut out = format!("{BEGIN}\n\\section*{{{}}}\n", escaped(&functional.name));
+    for part in parts {
+        out.push_str(&format!("\\paragraph{{{}}}\n", heading(&part.title)));
+        if part.indexed.is_empty() && part.shown.is_empty() {
+            out.push_str("Nothing is free, or every coefficient vanishes identically.\n");
+        }
+        let own = part.indexed.iter();
+        let own = own.map(|own| (own.of.as_str(), latex_of(functional, own)));
+        out.push_str(&aligned(functional, own));
+        if !part.indexed.is_empty() && !part.shown.is_empty() {
+            out.push_str("In components:\n");
+        }
+        let own = part.shown.iter();
+        let own = own.map(|own| (own.of.as_str(), latex_shown(functional, own)));
+        out.push_str(&aligned(functional, own));
+    }
+    out.push_str("\\end{document}\n");
+    out
+}
+
+/// A heading that begins with a capital, with names of pieces as formulas: `Conditions on $S_{u}$`.
+fn heading(words: &str) -> String {
+    let words = in_print(words);
+    let each = words.split(' ').map(|word| match word.contains("_{") {
+        true => format!("${word}$"),
+        false => escaped(word),
+    });
+    let whole = each.collect::<Vec<_>>().join(" ");
+    let mut letters = whole.chars();
+    let first = letters.next().map(|c| c.to_uppercase().collect::<String>());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+fn latex_of(functional: &Functional, own: &Indexed) -> String {
+    written_equation(&own.value, &functional.scope, Format::Latex)
+}
+
+fn latex_shown(functional: &Functional, own: &Shown) -> String {
+    let g = &functional.space.graph;
+    let document = Document::equations(g, &[(own.value, g.zero())], &options(functional));
+    document.render(Format::Latex).trim().to_owned()
+}
+
+/// Equations below each other, each with the variation that it belongs to, in lines that fit a page.
+fn aligned<'e>(
+    functional: &Functional,
+    equations: impl Iterator<Item = (&'e str, String)>,
+) -> String {
+    let mut rows: Vec<String> = Vec::new();
+    for (of, latex) in equations {
+        let name = variation_name(functional, of).and_then(|own| own.latex);
+        let name = name.unwrap_or_else(|| format!("\\text{{{}}}", escaped(of)));
+        if latex.len() > PAGE {
+            let what = "\\text{an expression too long for a page, which the other notations print}";
+            rows.push(format!("{name}:\\quad & {what}"));
+            continue;
+        }
+        for (place, line) in lines_of(&latex).into_iter().enumerate() {
+            rows.push(match place {
+                0 => format!("{name}:\\quad & {line}"),
+                _ => format!("&\\qquad {line}"),
+            });
+        }
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
+        rows.join(" \\\\\n")
+    )
+}
+
+/// Signs of a line of a page, counted as in LaTeX, where commands are longer than what they print.
+const LINE: usize = 120;
+
+/// Signs of an equation that is printed.
+const PAGE: usize = 900;
+
+/// A sum broken before signs that stand in no braces or parentheses.
+fn lines_of(latex: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut depth = 0_i32;
+    for word in latex.split_whitespace() {
+        let is_sign = depth == 0 && matches!(word.chars().next(), Some('+' | '-' | '='));
+        let last = lines.len() - 1;
+        if is_sign && lines[last].len() > LINE {
+            lines.push(String::new());
+        }
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() {
+            lines[last].push(' ');
+        }
+        lines[last].push_str(word);
+        for sign in word.chars() {
+            depth += match sign {
+                '{' | '(' => 1,
+                '}' | ')' => -1,
+                _ => 0,
+            };
+        }
+    }
+    lines
 }
 
 fn as_module(functional: &Functional, parts: &[Part]) -> String {
@@ -125,7 +233,8 @@ fn as_json(functional: &Functional, parts: &[Part]) -> String {
                 .iter()
                 .map(|own| {
                     let text = written_equation(&own.value, &functional.scope, Format::Text);
-                    serde_json::json!({"of": own.of, "equation": text})
+                    let latex = latex_of(functional, own);
+                    serde_json::json!({"of": own.of, "equation": text, "latex": latex})
                 })
                 .collect();
             let shown: Vec<_> = part
@@ -134,7 +243,9 @@ fn as_json(functional: &Functional, parts: &[Part]) -> String {
                 .map(|own| {
                     let tree: serde_json::Value =
                         serde_json::from_str(&g.json(own.value)).unwrap_or_default();
-                    serde_json::json!({"of": own.of, "zero": tree})
+                    let equation = format!("{} = 0", g.text(own.value));
+                    let latex = latex_shown(functional, own);
+                    serde_json::json!({"of": own.of, "equation": equation, "latex": latex, "zero": tree})
                 })
                 .collect();
             serde_json::json!({"title": part.title, "indexed": indexed, "components": shown})

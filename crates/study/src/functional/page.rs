@@ -1,18 +1,25 @@
 //! The report of a functional.
 
-use super::{
-    boundary, document, euler, indexed_euler, indexed_natural, labels, options, pictures, table,
-    Indexed, Shown,
+use super::shown::{
+    absent, boundary, euler, given, head, in_order, indexed_euler, indexed_natural, joined, kind,
+    labels, number, used, Indexed, Shown,
 };
+use super::typesetting::{
+    as_written, caption, field_name, formula, in_indices, in_print, vanishing, variation_name,
+};
+use super::{pictures, table};
 use crate::page::{evidence, source};
-use chetaev_functionals::functional::{Functional, Role};
-use chetaev_functionals::notation::{parse_sides, written, written_equation, Node};
+use chetaev_functionals::functional::{Field, Functional, Role};
+use chetaev_functionals::notation::written_equation;
 use chetaev_functionals::study::Decided;
+use chetaev_functionals::tensors::Shape;
+use chetaev_functionals::variation::Variation;
 use chetaev_functionals::Study;
 use chetaev_report::data::{
-    Claim, Equation, EquationSection, Fact, Formula, Parameter, Report, Reproducibility, Source,
+    Claim, Definition, Equation, EquationSection, Fact, Formula, Parameter, Report,
+    Reproducibility, Source,
 };
-use chetaev_symbolic::print::{Document, Format};
+use chetaev_symbolic::print::Format;
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::Expr;
 
@@ -40,7 +47,10 @@ fn report(study: &Study, command: Option<String>) -> Report {
             .collect(),
         facts: facts(f),
         parameters: f.parameters.iter().map(|p| parameter(f, p)).collect(),
-        tables: vec![table::table(&study.problem)],
+        tables: table::table(&study.problem)
+            .into_iter()
+            .chain(pictures::table(study))
+            .collect(),
         sections: sections(study),
         figures: pictures::figures(study),
         maps: pictures::maps(study),
@@ -59,7 +69,7 @@ fn report(study: &Study, command: Option<String>) -> Report {
 
 fn paragraphs(text: &str) -> Vec<String> {
     let own = text.split("\n\n").map(str::trim);
-    own.filter(|p| !p.is_empty()).map(str::to_owned).collect()
+    own.filter(|p| !p.is_empty()).map(in_print).collect()
 }
 
 fn subtitle(f: &Functional) -> String {
@@ -67,7 +77,11 @@ fn subtitle(f: &Functional) -> String {
         .level
         .as_ref()
         .map_or(String::new(), |level| format!(" of level {level}"));
-    format!("A functional{level} in {} dimensions", f.space.dimensions())
+    match f.space.dimensions() {
+        1 => format!("A functional{level} in one dimension"),
+        2 => format!("A functional{level} in two dimensions"),
+        _ => format!("A functional{level} in three dimensions"),
+    }
 }
 
 fn facts(f: &Functional) -> Vec<Fact> {
@@ -76,25 +90,25 @@ fn facts(f: &Functional) -> Vec<Fact> {
         value,
         ..Fact::default()
     };
+    let tensor = |label: &str, field: &Field| {
+        let name = match &field.on {
+            Some(on) => format!("{} on {on}", field.name),
+            None => field.name.clone(),
+        };
+        Fact {
+            note: Some(in_print(&field.description)).filter(|d| !d.is_empty()),
+            formulas: vec![field_name(f, &name)],
+            ..fact(label, kind(field.shape).to_owned())
+        }
+    };
     let mut found = Vec::new();
     found.extend(f.level.clone().map(|level| fact("Level", level)));
-    for field in &f.fields {
-        let on = field
-            .on
-            .as_ref()
-            .map_or(String::new(), |on| format!(" on {on}"));
-        found.push(Fact {
-            note: Some(field.description.clone()).filter(|d| !d.is_empty()),
-            ..fact(
-                "Varied",
-                format!("{}, {}{on}", field.name, field.shape.word()),
-            )
-        });
-    }
-    found.push(fact("Density", f.written.clone()));
-    for piece in &f.pieces {
-        found.push(fact(&format!("On {}", piece.name), piece.written.clone()));
-    }
+    found.extend(f.fields.iter().map(|field| tensor("Varied", field)));
+    found.extend(f.data.iter().map(|field| tensor("Given", field)));
+    found.extend(f.functions.iter().map(|own| Fact {
+        formulas: vec![formula(f, f.space.graph.symbol(&own.name, 0))],
+        ..fact("Function", in_print(&own.description))
+    }));
     for (role, label) in [
         (Role::Imposed, "Imposed"),
         (Role::Yielded, "Stated to follow"),
@@ -117,18 +131,6 @@ fn parameter(f: &Functional, p: &chetaev_functionals::functional::Parameter) -> 
     }
 }
 
-fn formula(f: &Functional, e: Expr) -> Formula {
-    of_document(&Document::expressions(&f.space.graph, &[e], &options(f)))
-}
-
-fn of_document(document: &Document) -> Formula {
-    Formula {
-        mathml: Some(document.render(Format::Mathml)),
-        text: document.render(Format::Text),
-        latex: Some(document.render(Format::Latex)),
-    }
-}
-
 fn equation(f: &Functional, label: String, e: Expr) -> Equation {
     let signs = simplify::length(&f.space.graph, e);
     if signs > LEGIBLE {
@@ -141,8 +143,9 @@ fn equation(f: &Functional, label: String, e: Expr) -> Equation {
         };
     }
     Equation {
+        name: variation_name(f, &label),
         label: Some(label),
-        formula: of_document(&document(f, e)),
+        formula: vanishing(f, e),
         ..Equation::default()
     }
 }
@@ -158,6 +161,7 @@ fn section(
         id: id.into(),
         title: title.into(),
         explanation: vec![explanation.into()],
+        is_unnumbered: true,
         equations: all
             .iter()
             .map(|s| equation(f, s.of.clone(), s.value))
@@ -166,7 +170,7 @@ fn section(
     }
 }
 
-fn in_indices(
+fn indexed(
     f: &Functional,
     id: &str,
     title: &str,
@@ -175,6 +179,7 @@ fn in_indices(
 ) -> EquationSection {
     let write = |own: &Indexed, format| written_equation(&own.value, &f.scope, format);
     let equations = all.iter().map(|own| Equation {
+        name: variation_name(f, &own.of),
         label: Some(own.of.clone()),
         formula: Formula {
             mathml: Some(write(own, Format::Mathml)),
@@ -188,140 +193,166 @@ fn in_indices(
         title: title.into(),
         explanation: vec![explanation.into()],
         equations: equations.collect(),
+        is_unnumbered: true,
         ..EquationSection::default()
     }
 }
 
 fn sections(study: &Study) -> Vec<EquationSection> {
     let f = &study.problem.functional;
-    let mut found = vec![stated(f)];
-    let Ok(variation) = &study.variation else {
-        return found;
+    let mut found = vec![densities(f), stated(f)];
+    if let Ok(variation) = &study.variation {
+        found.extend(inside(f, variation));
+        let all = joined(f, boundary(f, variation));
+        found.extend(
+            all.iter()
+                .flat_map(|(pieces, own)| on_pieces(f, pieces, own)),
+        );
+    }
+    found.retain(|s| !s.equations.is_empty() || s.id.starts_with("on-"));
+    found
+}
+
+/// What is to be stationary.
+fn densities(f: &Functional) -> EquationSection {
+    let whole = Equation {
+        label: Some("over the body".into()),
+        formula: in_indices(f, &f.tree),
+        ..Equation::default()
     };
-    let indexed = indexed_euler(f, variation);
+    let pieces = f.pieces.iter().filter(|own| own.written != "0");
+    let pieces = pieces.filter_map(|own| {
+        Some(Equation {
+            label: Some(in_print(&format!("on {}", own.name))),
+            formula: in_indices(f, own.tree.as_ref()?),
+            ..Equation::default()
+        })
+    });
+    let definitions = used(f).into_iter().map(|own| Definition {
+        formula: as_written(f, &format!("{} = {}", own.name, own.written)),
+        text: Some(in_print(&own.description)).filter(|words| !words.is_empty()),
+    });
+    EquationSection {
+        id: "densities".into(),
+        title: "The functional".into(),
+        explanation: vec![
+            "The sum of the integrals of these densities is to be stationary; an index that occurs twice is summed over.".into(),
+        ],
+        equations: [whole].into_iter().chain(pieces).collect(),
+        definitions: definitions.collect(),
+        is_unnumbered: true,
+        ..EquationSection::default()
+    }
+}
+
+/// Euler equations, in index notation and in components.
+fn inside(f: &Functional, variation: &Variation) -> Vec<EquationSection> {
+    let own = indexed_euler(f, variation);
     let claim = Some(format!("functional.euler#{}", f.name));
-    let in_words = "The coefficient of each variation in the interior vanishes.";
-    let in_components = "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two.";
-    if indexed.is_empty() {
-        let words = format!("{in_words} {in_components}");
-        found.push(EquationSection {
+    let mut in_words = "The coefficient of each variation in the interior vanishes.".to_owned();
+    for name in absent(f, variation) {
+        in_words.push_str(&format!(" That of δ{name} vanishes identically."));
+    }
+    let has_pairs = f.interior().any(|field| field.shape == Shape::Symmetric);
+    let in_components = match has_pairs && f.space.dimensions() > 1 {
+        true => "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two.",
+        false => "The same equations, carried out.",
+    };
+    let shown = euler(f, variation);
+    if own.is_empty() {
+        return vec![EquationSection {
             claim,
-            ..section(f, "euler", "Euler equations", &words, &euler(f, variation))
-        });
-    } else {
-        found.push(EquationSection {
+            ..section(f, "euler", "Euler equations", &in_words, &shown)
+        }];
+    }
+    vec![
+        EquationSection {
             claim,
-            ..in_indices(f, "euler", "Euler equations", in_words, &indexed)
-        });
-        found.push(EquationSection {
+            ..indexed(f, "euler", "Euler equations", &in_words, &own)
+        },
+        EquationSection {
             collapsed: true,
             ..section(
                 f,
                 "euler-components",
                 "Euler equations in components",
                 in_components,
-                &euler(f, variation),
+                &shown,
             )
-        });
-    }
-    for (piece, conditions) in boundary(f, variation) {
-        if let Some(indexed) = indexed_natural(f, &piece).filter(|own| !own.is_empty()) {
-            found.push(in_indices(
-                f,
-                &format!("on-{piece}"),
-                &format!("Conditions on {piece}"),
-                "The coefficient of each variation that is free here vanishes. A traction is varied as a whole.",
-                &indexed,
-            ));
-            found.push(EquationSection {
-                collapsed: true,
-                ..section(
-                    f,
-                    &format!("on-{piece}-components"),
-                    &format!("Conditions on {piece} in components"),
-                    "By the fields and their derivatives across the boundary.",
-                    &conditions,
-                )
-            });
-            continue;
-        }
-        let explanation = if conditions.is_empty() {
-            "Nothing is free here, or every coefficient vanishes."
-        } else {
-            "The coefficient of each variation that is free here vanishes."
+        },
+    ]
+}
+
+/// The conditions on pieces that share them.
+fn on_pieces(f: &Functional, pieces: &[String], conditions: &[Shown]) -> Vec<EquationSection> {
+    let piece = pieces.first().map_or("", String::as_str);
+    let names = in_print(&pieces.join(", "));
+    let (id, title) = (format!("on-{piece}"), format!("Conditions on {names}"));
+    let fixed = given(f, piece);
+    let known = match fixed.is_empty() {
+        true => String::new(),
+        false => format!("Given here: {}. ", in_print(&fixed.join(", "))),
+    };
+    let own = indexed_natural(f, piece).unwrap_or_default();
+    if own.is_empty() {
+        let free = match (conditions.is_empty(), fixed.is_empty()) {
+            (true, true) => "Nothing is free here, or every coefficient vanishes.",
+            (true, false) => "Nothing else is free.",
+            _ => "The coefficient of each variation that is free here vanishes.",
         };
-        let title = format!("Conditions on {piece}");
-        found.push(section(
+        return vec![section(
             f,
-            &format!("on-{piece}"),
+            &id,
             &title,
-            explanation,
-            &conditions,
-        ));
+            &format!("{known}{free}"),
+            conditions,
+        )];
     }
-    found.retain(|s| !s.equations.is_empty() || s.id.starts_with("on-"));
-    found
+    let is_field = |of: &str| {
+        f.fields
+            .iter()
+            .any(|field| head(of.trim_start_matches('δ')) == field.name)
+    };
+    let has_traction = own.iter().any(|own| !is_field(&own.of));
+    let whole = match has_traction {
+        true => " A traction is varied as a whole.",
+        false => "",
+    };
+    let free =
+        format!("{known}The coefficient of each variation that is free here vanishes.{whole}");
+    vec![
+        indexed(f, &id, &title, &free, &own),
+        EquationSection {
+            collapsed: true,
+            ..section(
+                f,
+                &format!("{id}-components"),
+                &format!("{title} in components"),
+                "By the fields and their derivatives across the boundary.",
+                conditions,
+            )
+        },
+    ]
 }
 
 /// The equations that the model states, as written.
 fn stated(f: &Functional) -> EquationSection {
-    let equations = f
-        .equations
-        .iter()
-        .filter(|e| e.role != Role::Other)
-        .map(|e| {
-            let on =
-                e.on.as_ref()
-                    .map_or(String::new(), |on| format!(" on {on}"));
-            let role = match e.role {
-                Role::Imposed => "imposed",
-                _ => "stated to follow",
-            };
-            Equation {
-                label: Some(format!("({})", e.label)),
-                formula: as_stated(f, e),
-                caption: Some(format!("{}{on}; {role}", e.title)),
-                ..Equation::default()
-            }
-        });
+    let roles = [Role::Imposed, Role::Yielded].into_iter();
+    let mut all: Vec<_> = roles.flat_map(|role| in_order(f, role)).collect();
+    all.sort_by_key(|own| number(&own.label));
+    let equations = all.into_iter().map(|own| Equation {
+        label: Some(format!("({})", own.label)),
+        formula: as_written(f, &own.written),
+        caption: Some(caption(own)),
+        ..Equation::default()
+    });
     EquationSection {
         id: "stated".into(),
         title: "Field equations".into(),
         explanation: vec!["As the model states them.".into()],
         equations: equations.collect(),
+        is_unnumbered: true,
         ..EquationSection::default()
-    }
-}
-
-/// A stated equation, typeset as it is written.
-fn as_stated(f: &Functional, e: &chetaev_functionals::functional::Equation) -> Formula {
-    let sides = parse_sides(&e.written, &f.scope, &mut Vec::new());
-    let Some((left, right)) = sides else {
-        return Formula {
-            text: e.written.clone(),
-            ..Formula::default()
-        };
-    };
-    let zero = Node::number(0, left.span);
-    let right = right.unwrap_or(zero);
-    let side = |node: &Node, format| written(node, &f.scope, format);
-    let inner = |node: &Node| {
-        let own = side(node, Format::Mathml);
-        let own = own.strip_prefix("<math>").unwrap_or(&own);
-        own.strip_suffix("</math>").unwrap_or(own).to_owned()
-    };
-    Formula {
-        mathml: Some(format!(
-            "<math>{}<mo>=</mo>{}</math>",
-            inner(&left),
-            inner(&right)
-        )),
-        text: e.written.clone(),
-        latex: Some(format!(
-            "{} = {}",
-            side(&left, Format::Latex),
-            side(&right, Format::Latex)
-        )),
     }
 }
 
@@ -336,7 +367,10 @@ fn step(f: &Functional, shown: &chetaev_functionals::claims::Formula) -> Equatio
             },
             ..Equation::default()
         },
-        None => equation(f, String::new(), shown.value),
+        None => Equation {
+            name: None,
+            ..equation(f, String::new(), shown.value)
+        },
     }
 }
 
@@ -347,7 +381,7 @@ fn claim(f: &Functional, decided: &Decided) -> Claim {
         subject: decided.subject.clone(),
         title: Some(decided.title.into()),
         verdict: crate::page::word(verdict.word()),
-        detail: verdict.detail().into(),
+        detail: in_print(verdict.detail()),
         expected: match decided.expected.first() {
             Some(_) if decided.is_as_expected() => Some(crate::page::word(verdict.word())),
             first => first.map(|w| crate::page::word(w)),
@@ -358,7 +392,7 @@ fn claim(f: &Functional, decided: &Decided) -> Claim {
             .formulas
             .iter()
             .map(|shown| Equation {
-                caption: Some(shown.caption.clone()),
+                caption: Some(in_print(&shown.caption)),
                 label: None,
                 ..step(f, shown)
             })

@@ -1,14 +1,15 @@
 //! Ritz's method in the report: how the values converge, and the field.
 
+use super::typesetting::in_print;
 use chetaev_functionals::polynomial::Polynomial;
 use chetaev_functionals::ritz::{approximation, Approximation, Asked};
 use chetaev_functionals::Study;
-use chetaev_report::data::{Figure, Map, Series};
+use chetaev_report::data::{Cell, Figure, Map, Series, Table, TableRow};
 use chetaev_symbolic::rational::to_f64;
 
 /// Points of a curve, and cells of a picture along a side.
 const POINTS: usize = 101;
-const CELLS: usize = 48;
+const CELLS: usize = 81;
 
 fn approximations(study: &Study) -> Option<(&Asked, Vec<Approximation>)> {
     let is_decided = study.verdicts.iter().any(|d| d.claim == "functional.ritz");
@@ -26,7 +27,11 @@ pub(super) fn figures(study: &Study) -> Vec<Figure> {
     let claim = Some(format!("functional.ritz#{}", study.problem.functional.name));
     let degrees: Vec<f64> = all.iter().map(|own| f64::from(own.degree)).collect();
     let mut found = Vec::new();
-    if !asked.points.is_empty() && all.len() > 1 {
+    let is_exact = asked
+        .points
+        .iter()
+        .all(|point| all.iter().all(|own| error(own, point) == 0.0));
+    if !is_exact && all.len() > 1 {
         let series = asked.points.iter().map(|point| Series {
             name: point.written.clone(),
             values: all.iter().map(|own| error(own, point).max(1e-17)).collect(),
@@ -36,7 +41,7 @@ pub(super) fn figures(study: &Study) -> Vec<Figure> {
         found.push(Figure {
             title: "Convergence of Ritz's method".into(),
             explanation: vec![
-                "The relative error at the stated points over the degree of the free polynomial by each variable; integrals and elimination are exact, and an error of zero is drawn as 1e-17.".into(),
+                "The relative error at the stated points over the degree of the free polynomial by each variable; an error of zero is drawn as 1e-17.".into(),
             ],
             horizontal: "degree".into(),
             abscissae: degrees.clone(),
@@ -51,6 +56,53 @@ pub(super) fn figures(study: &Study) -> Vec<Figure> {
         found.extend(curve(study, &all, claim));
     }
     found
+}
+
+/// The stationary polynomials, degree by degree, with their values at the stated points.
+pub(super) fn table(study: &Study) -> Option<Table> {
+    let (asked, all) = approximations(study)?;
+    let mut headings = vec!["Degree".to_owned(), "Unknowns".to_owned()];
+    for point in &asked.points {
+        headings.push(point.written.clone());
+        headings.push("Relative error".to_owned());
+    }
+    let rows = all.iter().map(|own| {
+        let mut cells: Vec<Cell> = vec![
+            own.degree.to_string().as_str().into(),
+            own.unknowns.to_string().as_str().into(),
+        ];
+        for point in &asked.points {
+            let known = own.fields.iter().find(|(c, _)| *c == point.component);
+            let value = known.map(|(_, polynomial)| polynomial.exact(&point.at));
+            let error = error(own, point);
+            let value = value.map_or_else(String::new, |value| match error == 0.0 {
+                true => value.to_string(),
+                false => format!("{:.9e}", to_f64(&value)),
+            });
+            cells.push(value.as_str().into());
+            let error = if error == 0.0 {
+                "0".to_owned()
+            } else {
+                format!("{error:.1e}")
+            };
+            cells.push(error.as_str().into());
+        }
+        TableRow {
+            cells,
+            is_marked: false,
+        }
+    });
+    Some(Table {
+        id: "ritz".into(),
+        title: "Ritz's method".into(),
+        explanation: vec![
+            "For each degree by each variable: how many coefficients are determined, and the stationary polynomial at the stated \
+             points, compared with the closed solution. Integrals and elimination are exact."
+                .into(),
+        ],
+        headings,
+        rows: rows.collect(),
+    })
 }
 
 fn error(own: &Approximation, point: &chetaev_functionals::ritz::Point) -> f64 {
@@ -122,16 +174,29 @@ pub(super) fn maps(study: &Study) -> Vec<Map> {
         return Vec::new();
     };
     let values = |polynomial: &Polynomial| -> Vec<f64> {
-        let middle = |(_, lower, upper): &(String, f64, f64), i: usize| {
-            lower + (upper - lower) * (i as f64 + 0.5) / CELLS as f64
+        let at = |(_, lower, upper): &(String, f64, f64), i: usize| {
+            lower + (upper - lower) * i as f64 / (CELLS - 1) as f64
         };
         let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| (i, j)));
-        cells
-            .map(|(i, j)| polynomial.value(&[middle(horizontal, i), middle(vertical, j)]))
+        let all: Vec<f64> = cells
+            .map(|(i, j)| polynomial.value(&[at(horizontal, i), at(vertical, j)]))
+            .collect();
+        // What is rounded off where the field is zero is no value of it.
+        let most = all
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
+        all.into_iter()
+            .map(|value| {
+                if value.abs() < 1e-10 * most {
+                    0.0
+                } else {
+                    value
+                }
+            })
             .collect()
     };
     let own = last.fields.iter().map(|(component, polynomial)| Map {
-        title: format!("{} by Ritz's method", name(study, *component)),
+        title: in_print(&format!("{} by Ritz's method", name(study, *component))),
         explanation: vec![format!(
             "The stationary polynomial of degree {} by each variable, with {} unknowns.",
             last.degree, last.unknowns

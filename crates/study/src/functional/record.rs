@@ -1,6 +1,6 @@
 //! `study.json` of a functional.
 
-use super::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
+use super::shown::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use crate::record::{
     of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
     VerdictRecord, WorkRecord, WrittenRecord, SCHEMA,

@@ -1,8 +1,13 @@
 //! The text for a terminal.
 
-use super::{boundary, euler, indexed_euler, indexed_natural, labels, table, Indexed, Shown};
+use super::shown::{
+    absent, boundary, euler, given, in_order, indexed_euler, indexed_natural, joined, kind, used,
+    Indexed, Shown,
+};
+use super::table;
+use crate::layout::{hanging, terms};
 use crate::summary::{bold, coloured, Style};
-use chetaev_functionals::functional::Role;
+use chetaev_functionals::functional::{Field, Role};
 use chetaev_functionals::notation::written_equation;
 use chetaev_functionals::Study;
 use chetaev_symbolic::print::Format;
@@ -33,10 +38,14 @@ fn derived(text: &mut String, study: &Study, style: Style) {
     let variation = match &study.variation {
         Ok(variation) => variation,
         Err(problem) => {
-            let _ = writeln!(text, "  not derived: {problem}");
+            text.push_str(&hanging("  not derived: ", &problem.to_string()));
             return;
         }
     };
+    for name in absent(f, variation) {
+        let of = format!("δ{name}");
+        let _ = writeln!(text, "    {of:<12} vanishes identically");
+    }
     both(
         text,
         study,
@@ -44,18 +53,23 @@ fn derived(text: &mut String, study: &Study, style: Style) {
         &euler(f, variation),
     );
     let _ = writeln!(text, "\n{}", bold(style, "boundary conditions"));
-    for (piece, conditions) in boundary(f, variation) {
-        let _ = writeln!(text, "  on {piece}");
-        let given = given(study, &piece);
+    for (pieces, conditions) in joined(f, boundary(f, variation)) {
+        text.push_str(&hanging("  on ", &pieces.join(", ")));
+        let piece = pieces.first().map_or("", String::as_str);
+        let given = given(f, piece);
         if !given.is_empty() {
             let _ = writeln!(text, "    given: {}", given.join(", "));
         }
-        let indexed = indexed_natural(f, &piece).unwrap_or_default();
-        both(text, study, &indexed, &conditions);
+        let indexed = indexed_natural(f, piece).unwrap_or_default();
+        if !given.is_empty() && indexed.is_empty() && conditions.is_empty() {
+            let _ = writeln!(text, "    nothing else is free");
+        } else {
+            both(text, study, &indexed, &conditions);
+        }
     }
 }
 
-/// In index notation, then in components; one of them where both are the same.
+/// In index notation, then in components.
 fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) {
     let f = &study.problem.functional;
     let g = &f.space.graph;
@@ -66,18 +80,17 @@ fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) 
         );
         return;
     }
-    let is_scalar = indexed.len() == shown.len() && indexed.iter().all(|own| !own.of.contains('_'));
     for own in indexed {
         let line = written_equation(&own.value, &f.scope, Format::Text);
-        let _ = writeln!(text, "    {:<12} {line}", own.of);
+        text.push_str(&terms(&format!("    {:<12} ", own.of), &line));
     }
     let is_short = |own: &Shown| simplify::length(g, own.value) <= WRITTEN;
-    if indexed.is_empty() || is_scalar && f.space.dimensions() > 1 {
+    if indexed.is_empty() {
         equations(text, study, shown);
-    } else if !is_scalar && shown.iter().all(is_short) {
+    } else if shown.iter().all(is_short) {
         let _ = writeln!(text, "   in components");
         equations(text, study, shown);
-    } else if !is_scalar {
+    } else {
         let _ = writeln!(text, "   in components: in the report");
     }
 }
@@ -124,22 +137,43 @@ fn heading(text: &mut String, study: &Study, style: Style) {
         if d == 1 { "" } else { "s" }
     );
     for field in &f.fields {
-        let on = field
-            .on
-            .as_ref()
-            .map_or(String::new(), |on| format!(" on {on}"));
-        let _ = writeln!(
+        line(text, "varied", &described(field));
+    }
+    text.push_str(&terms("  density       ", &f.written));
+    for piece in f.pieces.iter().filter(|piece| piece.written != "0") {
+        text.push_str(&terms(&format!("  on {:<10} ", piece.name), &piece.written));
+    }
+    for own in used(f) {
+        let formula = format!("{} = {}", own.name, own.written);
+        text.push_str(&terms("  where         ", &formula));
+    }
+    for field in &f.data {
+        line(text, "given", &described(field));
+    }
+    for own in f.functions.iter().filter(|own| !own.description.is_empty()) {
+        line(
             text,
-            "  varied        {} ({}{on}) {}",
-            field.name,
-            field.shape.word(),
-            field.description
+            "function",
+            &format!("{}: {}", own.name, own.description),
         );
     }
-    let _ = writeln!(text, "  density       {}", f.written);
-    for piece in &f.pieces {
-        let _ = writeln!(text, "  on {:<10} {}", piece.name, piece.written);
-    }
+}
+
+fn line(text: &mut String, label: &str, words: &str) {
+    text.push_str(&hanging(&format!("  {label:<13} "), words));
+}
+
+/// A field in words: `u, a vector: displacement`.
+fn described(field: &Field) -> String {
+    let on = field.on.as_ref();
+    let on = on.map_or(String::new(), |on| format!(" on {on}"));
+    let colon = if field.description.is_empty() {
+        ""
+    } else {
+        ": "
+    };
+    let (name, kind) = (&field.name, kind(field.shape));
+    format!("{name}, {kind}{on}{colon}{}", field.description)
 }
 
 fn stated(text: &mut String, study: &Study, style: Style) {
@@ -148,34 +182,29 @@ fn stated(text: &mut String, study: &Study, style: Style) {
         (Role::Imposed, "imposed"),
         (Role::Yielded, "stated to follow"),
     ] {
-        if labels(f, role).is_empty() {
+        let own = in_order(f, role);
+        if own.is_empty() {
             continue;
         }
         let _ = writeln!(text, "\n{}", bold(style, title));
-        for equation in f.with_role(role) {
+        let widths = own.iter().map(|own| own.label.chars().count() + 2);
+        let width = widths.max().unwrap_or(0);
+        for equation in own {
             let on = equation
                 .on
                 .as_ref()
                 .map_or(String::new(), |on| format!(" on {on}"));
             let multiplier = equation.multiplier.as_ref();
             let multiplier = multiplier.map_or(String::new(), |(m, _)| format!(", multiplier {m}"));
-            let _ = writeln!(
-                text,
-                "  ({}) {}{on}  {}{multiplier}",
-                equation.label, equation.written, equation.title
-            );
+            let title = match equation.title.as_str() {
+                "" => String::new(),
+                title => format!(" ({title})"),
+            };
+            let first = format!("  {:<width$} ", format!("({})", equation.label));
+            let whole = format!("{}{on}{title}{multiplier}", equation.written);
+            text.push_str(&terms(&first, &whole));
         }
     }
-}
-
-fn given(study: &Study, piece: &str) -> Vec<String> {
-    let f = &study.problem.functional;
-    let own = f.piece(piece).map_or(&[][..], |own| &own.fixed);
-    let name = |&(component, is_normal): &(usize, bool)| {
-        let name = f.space.component_at(component).name;
-        format!("{name}{}", if is_normal { ",n" } else { "" })
-    };
-    own.iter().map(name).collect()
 }
 
 fn equations(text: &mut String, study: &Study, all: &[Shown]) {
@@ -187,34 +216,28 @@ fn equations(text: &mut String, study: &Study, all: &[Shown]) {
         } else {
             format!("{} = 0", g.text(shown.value))
         };
-        let _ = writeln!(text, "    {:<12} {written}", shown.of);
+        text.push_str(&terms(&format!("    {:<12} ", shown.of), &written));
     }
 }
 
 fn claims(text: &mut String, study: &Study, style: Style) {
-    let ids = study.verdicts.iter().map(|d| d.full_id().chars().count());
-    let width = ids.max().unwrap_or(0);
     for decided in &study.verdicts {
         let mark = if decided.is_as_expected() { " " } else { "!" };
         let verdict = &decided.finding.verdict;
-        let _ = writeln!(
-            text,
-            "{mark} {:<width$} {}  {}",
-            decided.full_id(),
-            coloured(style, verdict.word()),
-            verdict.detail()
-        );
+        let word = coloured(style, verdict.word());
+        let line = format!("{mark} {}  {word}", decided.full_id());
+        let _ = writeln!(text, "{}", line.trim_end());
+        text.push_str(&hanging("      ", verdict.detail()));
         for formula in &decided.finding.formulas {
             if let Some(own) = &formula.indexed {
-                let _ = writeln!(text, "    {}: {}", formula.caption, own.text);
+                let nothing = if own.text.is_empty() { "nothing" } else { "" };
+                let line = format!("{}: {}{nothing}", formula.caption, own.text);
+                text.push_str(&terms("      ", &line));
             }
         }
         if !decided.is_as_expected() {
-            let _ = writeln!(
-                text,
-                "    the model expects: {}",
-                decided.expected.join(" or ")
-            );
+            let expected = decided.expected.join(" or ");
+            let _ = writeln!(text, "      the model expects: {expected}");
         }
     }
 }

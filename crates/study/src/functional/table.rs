@@ -1,8 +1,9 @@
 //! The table of levels: what each functional of the family imposes and what it yields.
 
-use chetaev_functionals::functional::{Functional, Relative, Role};
+use super::typesetting::field_name;
+use chetaev_functionals::functional::{Functional, Relative};
 use chetaev_functionals::Problem;
-use chetaev_report::data::{Table, TableRow};
+use chetaev_report::data::{Cell, Table, TableRow};
 
 /// The headings of the columns.
 pub(super) const HEADINGS: [&str; 5] = ["Level", "Functional", "Fields", "Imposed", "Yields"];
@@ -15,39 +16,22 @@ pub(super) struct Row {
     pub(super) is_own: bool,
 }
 
-/// The family; where none is stated, the functional alone.
+/// The column of the fields.
+const FIELDS: usize = 2;
+
+/// The family.
 pub(super) fn rows(problem: &Problem) -> Vec<Row> {
     let own = &problem.functional;
-    if problem.family.is_empty() {
-        return vec![row(&relative(own), true)];
-    }
     let members = problem.family.iter();
     members
         .map(|member| row(member, member.name == own.name))
         .collect()
 }
 
-fn relative(own: &Functional) -> Relative {
-    let labels = |role: Role| own.with_role(role).map(|e| e.label.clone()).collect();
-    Relative {
-        name: own.name.clone(),
-        level: own.level.clone(),
-        density: own.written.clone(),
-        fields: own
-            .fields
-            .iter()
-            .map(|field| match &field.on {
-                Some(on) => format!("{} on {on}", field.name),
-                None => field.name.clone(),
-            })
-            .collect(),
-        imposed: labels(Role::Imposed),
-        yields: labels(Role::Yielded),
-    }
-}
-
 fn row(own: &Relative, is_own: bool) -> Row {
     let labels = |all: &[String]| -> String {
+        let mut all: Vec<&String> = all.iter().collect();
+        all.sort_by_key(|label| super::shown::number(label));
         let each: Vec<String> = all.iter().map(|label| format!("({label})")).collect();
         if each.is_empty() {
             "–".to_owned()
@@ -67,23 +51,38 @@ fn row(own: &Relative, is_own: bool) -> Row {
     }
 }
 
-/// The table of the report.
-pub(super) fn table(problem: &Problem) -> Table {
-    Table {
+/// The table of the report, where the functional belongs to a family.
+pub(super) fn table(problem: &Problem) -> Option<Table> {
+    if problem.family.is_empty() {
+        return None;
+    }
+    let own = &problem.functional;
+    Some(Table {
         id: "levels".into(),
         title: "Levels".into(),
         explanation: vec![
             "Each level imposes one more group of equations before the variation, and so has one field less; what is not imposed follows \
-             from the functional. The numbers are those of the field equations below."
+             from the functional. The numbers are those of the field equations above."
                 .into(),
         ],
         headings: HEADINGS.map(str::to_owned).to_vec(),
         rows: rows(problem)
             .into_iter()
             .map(|row| TableRow {
-                cells: row.cells.to_vec(),
+                cells: cells(own, &row),
                 is_marked: row.is_own,
             })
             .collect(),
-    }
+    })
+}
+
+/// The texts of a row, with the names of the fields typeset.
+fn cells(own: &Functional, row: &Row) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = row.cells.iter().map(|text| text.as_str().into()).collect();
+    let fields = row.cells[FIELDS].split(", ");
+    cells[FIELDS] = Cell {
+        text: String::new(),
+        formulas: fields.map(|field| field_name(own, field)).collect(),
+    };
+    cells
 }

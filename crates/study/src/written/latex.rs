@@ -7,7 +7,7 @@ use chetaev_mechanics::System;
 use chetaev_symbolic::print::{Document, Format};
 
 /// What stands before the first formulation.
-const BEGIN: &str = r"\documentclass{article}
+pub(crate) const BEGIN: &str = r"\documentclass{article}
 \usepackage[T1]{fontenc}
 \usepackage{amsmath,amssymb}
 \allowdisplaybreaks
@@ -92,7 +92,7 @@ fn begun(heading: &str) -> String {
 }
 
 /// Words as LaTeX reads them.
-fn escaped(words: &str) -> String {
+pub(crate) fn escaped(words: &str) -> String {
     let mut text = String::new();
     for sign in words.chars() {
         match sign {

@@ -161,7 +161,10 @@ impl Latex<'_> {
     }
 
     fn symbol(&self, name: &str, order: u32, out: &mut String) {
-        let name = self.name(name);
+        self.typeset(&self.name(name), order, out);
+    }
+
+    fn typeset(&self, name: &TypesetName, order: u32, out: &mut String) {
         let head = piece(&name.head);
         let row = |indices: &[Subscript]| {
             let own: Vec<String> = indices.iter().map(subscript).collect();
@@ -177,6 +180,11 @@ impl Latex<'_> {
         }
         if !name.subscripts.is_empty() {
             out.push_str(&format!("_{}", row(&name.subscripts)));
+        }
+        if let Some(argument) = &name.argument {
+            out.push('(');
+            self.typeset(argument, 0, out);
+            out.push(')');
         }
     }
 
@@ -415,6 +423,8 @@ fn piece(piece: &Piece) -> String {
             }
         }
         Piece::Derivative(letter) => format!("D{}", self::piece(letter)),
+        Piece::Indices(own) => escaped(own),
+        Piece::Primes(count) => "\\prime".repeat(*count),
         Piece::Greek(name, _) => match name.as_str() {
             "phi" => "\\varphi".to_string(),
             "epsilon" => "\\varepsilon".to_string(),

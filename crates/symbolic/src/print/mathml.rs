@@ -172,7 +172,10 @@ impl Mathml<'_> {
 
     /// A symbol, raised to a power if one is given: sub- and superscripts share their base.
     fn symbol(&self, name: &str, order: u32, exponent: Option<&str>) -> String {
-        let name = self.name(name);
+        self.typeset(&self.name(name), order, exponent)
+    }
+
+    fn typeset(&self, name: &TypesetName, order: u32, exponent: Option<&str>) -> String {
         let letter = piece(&name.head);
         let head = match accent(order) {
             // Without `accent`: as an accent the dot touches the letter in fonts that have no MATH table.
@@ -182,11 +185,18 @@ impl Mathml<'_> {
         let order = (order > 3).then(|| row(&format!("<mo>(</mo><mn>{order}</mn><mo>)</mo>")));
         let upper = indices(&name.superscripts);
         let above = order.as_deref().or(upper.as_deref()).or(exponent);
-        match (indices(&name.subscripts), above) {
+        let own = match (indices(&name.subscripts), above) {
             (None, None) => head,
             (Some(below), None) => format!("<msub>{head}{below}</msub>"),
             (None, Some(above)) => format!("<msup>{head}{above}</msup>"),
             (Some(below), Some(above)) => format!("<msubsup>{head}{below}{above}</msubsup>"),
+        };
+        match &name.argument {
+            Some(argument) => {
+                let inner = self.typeset(argument, 0, None);
+                row(&format!("{own}{}", parentheses(&inner)))
+            }
+            None => own,
         }
     }
 
@@ -358,6 +368,10 @@ fn piece(piece: &Piece) -> String {
         Piece::Greek(_, sign) => format!("<mi>{sign}</mi>"),
         Piece::Word(word) => format!("<mi>{}</mi>", escaped(word)),
         Piece::Digits(digits) => format!("<mn>{digits}</mn>"),
+        Piece::Indices(own) => row(&own.chars().map(index).collect::<String>()),
+        Piece::Primes(count) => {
+            format!("<mo lspace=\"0\" rspace=\"0\">{}</mo>", "′".repeat(*count))
+        }
         Piece::Derivative(letter) => row(&format!("<mi>D</mi>{}", self::piece(letter))),
         Piece::Accented(letter, accent) => {
             let letter = self::piece(letter);
@@ -367,6 +381,15 @@ fn piece(piece: &Piece) -> String {
                 Accent::Star => format!("<msup>{letter}<mo>*</mo></msup>"),
             }
         }
+    }
+}
+
+/// One sign of indices with derivatives.
+fn index(sign: char) -> String {
+    match sign {
+        ',' => "<mo lspace=\"0\" rspace=\"0\">,</mo>".to_owned(),
+        '0'..='9' => format!("<mn>{sign}</mn>"),
+        _ => format!("<mi>{}</mi>", escaped(&sign.to_string())),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Names as they are typeset: `theta_1` is θ with the subscript 1, `lambda_blade` λ with the subscript "blade". A name made
-//! by [`with_indices`] has upper indices too.
+//! by [`with_indices`] has upper indices too. Derivatives stand behind a comma, `u_1,12`, and a function of a tensor has primes and
+//! its argument: `A'_11(e)`.
 
 use crate::syntax::names::greek_letter;
 
@@ -18,6 +19,10 @@ pub(crate) enum Piece {
     Accented(Box<Piece>, Accent),
     /// The total derivative of an accented letter: `DLstar`.
     Derivative(Box<Piece>),
+    /// Indices with derivatives behind a comma: `1,12`.
+    Indices(String),
+    /// How often a function is differentiated.
+    Primes(usize),
 }
 
 /// A sign that belongs to a letter.
@@ -50,16 +55,21 @@ pub(crate) struct TypesetName {
     pub(crate) head: Piece,
     pub(crate) superscripts: Vec<Subscript>,
     pub(crate) subscripts: Vec<Subscript>,
+    /// The name of what a function is taken of.
+    pub(crate) argument: Option<Box<TypesetName>>,
 }
 
 impl TypesetName {
-    /// Whether something stands where an exponent would: an upper index or a star.
+    /// Whether something stands where an exponent would: an upper index, a star or an argument.
     pub(crate) fn is_raised(&self) -> bool {
         let letter = match &self.head {
             Piece::Derivative(letter) => letter,
             head => head,
         };
-        !self.superscripts.is_empty() || matches!(letter, Piece::Accented(_, Accent::Star))
+        let is_function = self.argument.is_some();
+        is_function
+            || !self.superscripts.is_empty()
+            || matches!(letter, Piece::Accented(_, Accent::Star))
     }
 }
 
@@ -99,6 +109,7 @@ fn with_groups(letter: &str, indices: &str) -> TypesetName {
         head: piece(letter),
         superscripts: split("^"),
         subscripts: split("_"),
+        argument: None,
     }
 }
 
@@ -115,6 +126,9 @@ fn piece(text: &str) -> Piece {
     }
     if text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty() {
         return Piece::Digits(text.to_string());
+    }
+    if text.contains(',') {
+        return Piece::Indices(text.to_string());
     }
     if let Some(accented) = accented(text) {
         return accented;
@@ -148,15 +162,22 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
     {
         return with_groups(&name[..start], &name[start..]);
     }
+    if let Some(function) = function_of(name) {
+        return function;
+    }
     let mut parts = name.split('_').filter(|part| !part.is_empty());
     let Some(first) = parts.next() else {
         return TypesetName {
             head: Piece::Word(name.to_string()),
             superscripts: Vec::new(),
             subscripts: Vec::new(),
+            argument: None,
         };
     };
-    let letters = first.trim_end_matches(|c: char| c.is_ascii_digit());
+    let letters = match first.contains(',') {
+        true => first,
+        false => first.trim_end_matches(|c: char| c.is_ascii_digit()),
+    };
     let mut pieces = Vec::new();
     let head = if letters.is_empty() {
         first
@@ -171,7 +192,27 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
         head: piece(head),
         superscripts: Vec::new(),
         subscripts: subscripts(pieces),
+        argument: None,
     }
+}
+
+/// A function of a tensor with its primes: `A(e)`, `A'_11(e)`.
+fn function_of(name: &str) -> Option<TypesetName> {
+    let (front, argument) = name.strip_suffix(')')?.split_once('(')?;
+    let bare = front.replace('\'', "");
+    if bare.is_empty() || argument.is_empty() {
+        return None;
+    }
+    let mut own = typeset(&bare);
+    let primes = front.len() - bare.len();
+    if primes > 0 {
+        own.superscripts.push(Subscript {
+            piece: Piece::Primes(primes),
+            digits: None,
+        });
+    }
+    own.argument = Some(Box::new(typeset(argument)));
+    Some(own)
 }
 
 /// A number after letters is their subscript; numbers stand side by side.
@@ -258,6 +299,14 @@ mod tests {
             digits: Some("2".into()),
         };
         assert_eq!(component.subscripts, [bare(Piece::Letter('x')), theta]);
+        // Derivatives of a component, and the gradient of a function of a tensor.
+        let jet = typeset(&with_indices("u", &[], &["1,12"]));
+        assert_eq!(jet.subscripts, [bare(Piece::Indices("1,12".into()))]);
+        let gradient = typeset("A'_11(e)");
+        assert_eq!(gradient.head, Piece::Letter('A'));
+        assert_eq!(gradient.superscripts, [bare(Piece::Primes(1))]);
+        assert_eq!(gradient.subscripts, [digits("11")]);
+        assert_eq!(gradient.argument, Some(Box::new(typeset("e"))));
         assert_eq!(typeset("mass").head, Piece::Word("mass".into()));
         assert_eq!(typeset("_").head, Piece::Word("_".into()));
     }

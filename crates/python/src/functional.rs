@@ -1,0 +1,245 @@
+//! A functional of fields over space, and what can be asked of it.
+
+use crate::{problem, waiting};
+use chetaev::disk::{text_of, Disk};
+use chetaev::functionals::read::reload;
+use chetaev::functionals::{self, Loaded, Problem};
+use chetaev::model::model::ModelText;
+use chetaev::model::{self, Files, NoFiles, Sources, Style};
+use chetaev::study::functional::{derivation, is_selected, page, record, selected, summary};
+use chetaev::study::summary::Style as SummaryStyle;
+use chetaev::study::written::Notation;
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use std::path::Path;
+
+/// Names with their values, as they are written.
+type Pairs = Vec<(String, String)>;
+/// Name, kind, piece of the boundary or `None`, description.
+type FieldOf = (String, String, Option<String>, String);
+
+/// A functional that was read without errors. Its texts are kept, and are read again for every question: what was read belongs to one
+/// thread.
+#[pyclass(frozen, module = "chetaev.chetaev_native")]
+pub(crate) struct Functional {
+    text: ModelText,
+    warnings: String,
+    known: Known,
+}
+
+/// What a functional states, in words.
+struct Known {
+    name: String,
+    level: Option<String>,
+    dimensions: usize,
+    fields: Vec<FieldOf>,
+    parameters: Vec<(String, Option<String>)>,
+}
+
+/// The words of a study.
+struct Studied {
+    record: String,
+    summary: String,
+    page: String,
+    is_as_expected: bool,
+}
+
+fn known(problem: &Problem) -> Known {
+    let own = &problem.functional;
+    let g = &own.space.graph;
+    let field = |field: &functionals::functional::Field| {
+        let kind = field.shape.word().to_owned();
+        (
+            field.name.clone(),
+            kind,
+            field.on.clone(),
+            field.description.clone(),
+        )
+    };
+    Known {
+        name: own.name.clone(),
+        level: own.level.clone(),
+        dimensions: own.space.dimensions(),
+        fields: own.fields.iter().map(field).collect(),
+        parameters: own
+            .parameters
+            .iter()
+            .map(|p| (p.name.clone(), p.value.map(|value| g.text(value))))
+            .collect(),
+    }
+}
+
+impl Functional {
+    fn of(py: Python<'_>, loaded: Loaded) -> PyResult<Functional> {
+        let Some(problem) = loaded.problem else {
+            return Err(problem::of_model(py, &loaded.diagnostics));
+        };
+        let warnings = match loaded.diagnostics.list.is_empty() {
+            true => String::new(),
+            false => loaded.diagnostics.render(Style::Plain),
+        };
+        Ok(Functional {
+            known: known(&problem),
+            text: problem.text,
+            warnings,
+        })
+    }
+
+    /// Reads a text that states a functional.
+    fn load(
+        py: Python<'_>,
+        (path, text): (&str, &str),
+        files: &dyn Files,
+        overrides: &[(String, String)],
+    ) -> PyResult<Functional> {
+        let tables = model::tables(path, text, files, &[], Sources::default());
+        if tables.table.is_some() && !tables.is_functional() {
+            let said = format!(
+                "{path} states a motion: chetaev.System reads it; a functional has kind = \"functional\""
+            );
+            return Err(problem::named(py, "ModelError", (said, "[]".to_owned())));
+        }
+        Functional::of(py, functionals::load(path, text, files, overrides))
+    }
+
+    /// What was read when the functional was made is read again.
+    fn again(&self, py: Python<'_>) -> PyResult<Problem> {
+        let loaded = reload(&self.text);
+        let found = loaded.problem;
+        found.ok_or_else(|| problem::of_model(py, &loaded.diagnostics))
+    }
+}
+
+#[pymethods]
+impl Functional {
+    /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Functional> {
+        let disk = Disk::beside(Path::new(path));
+        let text = text_of(Path::new(path), false)
+            .map_err(|why| PyOSError::new_err(format!("{path} cannot be read: {why}")))?;
+        Functional::load(py, (path, &text), &disk, &overrides)
+    }
+
+    /// Reads a model from its text. Files that it includes are looked for as if it stood at `path`; nothing is included without one.
+    #[staticmethod]
+    fn from_text(
+        py: Python<'_>,
+        text: &str,
+        path: Option<&str>,
+        overrides: Pairs,
+    ) -> PyResult<Functional> {
+        let disk = path.map(|path| Disk::beside(Path::new(path)));
+        let files: &dyn Files = match &disk {
+            Some(disk) => disk,
+            None => &NoFiles,
+        };
+        Functional::load(py, (path.unwrap_or("model.toml"), text), files, &overrides)
+    }
+
+    /// Reads a model again from what `texts` gave.
+    #[staticmethod]
+    fn from_texts(
+        py: Python<'_>,
+        path: String,
+        text: String,
+        includes: Pairs,
+        overrides: Pairs,
+    ) -> PyResult<Functional> {
+        let files: std::collections::BTreeMap<String, String> = includes.into_iter().collect();
+        Functional::load(py, (&path, &text), &files, &overrides)
+    }
+
+    /// Path, text, included files and overrides: enough to read the model again anywhere.
+    fn texts(&self) -> (String, String, Pairs, Pairs) {
+        let own = self.text.clone();
+        (own.path, own.text, own.includes, own.overrides)
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.known.name
+    }
+
+    /// Its level in a hierarchy, as written.
+    #[getter]
+    fn level(&self) -> Option<&str> {
+        self.known.level.as_deref()
+    }
+
+    /// The number of dimensions of space.
+    #[getter]
+    fn dimensions(&self) -> usize {
+        self.known.dimensions
+    }
+
+    /// Name, kind, piece of the boundary or `None`, and description of each field that is varied.
+    #[getter]
+    fn fields(&self) -> Vec<FieldOf> {
+        self.known.fields.clone()
+    }
+
+    /// Names of the parameters with the texts of their values, or `None`.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, Option<String>)> {
+        self.known.parameters.clone()
+    }
+
+    /// Warnings as they are printed; an empty text where there are none.
+    fn warnings(&self) -> &str {
+        &self.warnings
+    }
+
+    /// Everything wrong or doubtful, as it is printed and as JSON; and whether there are errors.
+    fn check(&self) -> (String, String, bool) {
+        let found = reload(&self.text).diagnostics;
+        let data = serde_json::to_string(&found.to_data()).unwrap_or_default();
+        (found.render(Style::Plain), data, found.has_errors())
+    }
+
+    /// Euler equations and conditions on the boundary in a notation: `derive`.
+    fn derive(&self, py: Python<'_>, notation: &str) -> PyResult<String> {
+        let format = Notation::named(notation).and_then(|own| own.format());
+        let Some(format) = format else {
+            let said = format!(
+                "there is no notation `{notation}` of field equations: text, latex, mathml, sympy or json"
+            );
+            return Err(problem::of_option(py, &said));
+        };
+        let problem = self.again(py)?;
+        derivation(&problem.functional, format)
+            .map_err(|why| problem::named(py, "NotDerivedError", (why.to_string(), "[]".into())))
+    }
+
+    /// Claims with their verdicts: the record as JSON, the summary, the report, and whether everything is as the model expects.
+    #[pyo3(signature = (claims, tell=None))]
+    fn study(
+        &self,
+        py: Python<'_>,
+        claims: &str,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String, String, bool)> {
+        let words =
+            selected(claims).map_err(|why| problem::of_option(py, &format!("claims: {why}")))?;
+        let text = &self.text;
+        let found = waiting::done(py, tell, |hooks| {
+            (hooks.progress)("deciding", None);
+            let problem = reload(text).problem?;
+            let study = functionals::study(problem, &|id| is_selected(&words, id), hooks.clock);
+            Some(Studied {
+                record: serde_json::to_string(&record(&study, &words, &[])).unwrap_or_default(),
+                summary: summary(&study, SummaryStyle::Plain),
+                page: page(&study, None),
+                is_as_expected: study.is_as_expected(),
+            })
+        })?;
+        if found.interrupted {
+            return Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(()));
+        }
+        let Some(own) = found.result else {
+            return Err(problem::of_model(py, &reload(text).diagnostics));
+        };
+        Ok((own.record, own.summary, own.page, own.is_as_expected))
+    }
+}

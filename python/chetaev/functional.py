@@ -1,0 +1,364 @@
+"""A functional of fields over space: what it is stationary for, and whether this is what it is said to be."""
+
+from __future__ import annotations
+
+import hashlib
+import html
+import json
+import os
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from . import chetaev_native as native
+from .claims import explain, verify
+from .errors import ModelWarning
+from .results import Check, Explanation, Json, Result, Verdict, Verification, write
+from .system import Value, _pairs, _Progress, of_gallery
+
+
+class FieldEquation:
+    """The coefficient of one variation, which vanishes.
+
+    Attributes
+    ----------
+    of : str
+        The variation: ``δu_k``.
+    text : str
+        The equation in the notation of the model.
+    latex : str
+        The same in LaTeX.
+    """
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self.of: str = data["of"]
+        self.text: str = data["equation"]
+        self.latex: str = data["latex"]
+
+    def __repr__(self) -> str:
+        return f"{self.of}: {self.text}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex}$"
+
+
+class FieldEquations:
+    """The equations of the interior, or the conditions on a piece of the boundary.
+
+    Attributes
+    ----------
+    title : str
+        ``Euler equations``, or ``conditions on S_u``.
+    indexed : list of FieldEquation
+        In index notation; empty where no index occurs.
+    components : list of FieldEquation
+        In components.
+    """
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self.title: str = data["title"]
+        self.indexed = [FieldEquation(own) for own in data["indexed"]]
+        self.components = [FieldEquation(own) for own in data["components"]]
+
+    @property
+    def equations(self) -> list[FieldEquation]:
+        """In index notation where there is one, else in components."""
+        return self.indexed or self.components
+
+    def __repr__(self) -> str:
+        return "\n".join([self.title, *(f"  {own}" for own in self.equations)])
+
+
+class FieldDerivation(Result, Sequence[FieldEquations]):
+    """Euler equations, and the natural conditions on each piece of the boundary."""
+
+    def __init__(self, functional: Functional, data: Json, text: str) -> None:
+        super().__init__(data, text)
+        self._functional = functional
+        self.parts = [FieldEquations(own) for own in data["parts"]]
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __getitem__(self, which: Any) -> Any:
+        """By number, or by the title."""
+        if isinstance(which, str):
+            for own in self.parts:
+                if own.title == which:
+                    return own
+            raise KeyError(which)
+        return self.parts[which]
+
+    @property
+    def euler(self) -> FieldEquations:
+        """The Euler equations."""
+        return self.parts[0]
+
+    def to(self, notation: str) -> str:
+        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy or json."""
+        return self._functional._native.derive(notation)
+
+    def to_latex(self) -> str:
+        """A whole document."""
+        return self.to("latex")
+
+    def to_sympy(self) -> dict[str, list[Any]]:
+        """SymPy equations by the title of their part, exact. Derivatives are symbols of their own: ``u_1,12``."""
+        space: dict[str, Any] = {}
+        exec(compile(self.to("sympy"), "<chetaev>", "exec"), space)
+        return {
+            own.title: [equation for group in space[f"part_{number}"].values() for equation in group]
+            for number, own in enumerate(self.parts, 1)
+        }
+
+    def _latex(self) -> str | None:
+        rows = [own.latex.replace(" = ", " &= ", 1) for part in self.parts for own in part.equations]
+        return "$$\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}$$" if rows else None
+
+    def _html(self) -> str:
+        lines = []
+        for part in self.parts:
+            lines.append(f"<h4>{html.escape(part.title[:1].upper() + part.title[1:])}</h4>")
+            lines += [
+                f"<p>{html.escape(own.of)}: $\\displaystyle {html.escape(own.latex)}$</p>" for own in part.equations
+            ] or ["<p>nothing is free</p>"]
+        return "\n".join(lines)
+
+
+class FunctionalStudy(Result):
+    """Claims about a functional with their verdicts.
+
+    Attributes
+    ----------
+    verdicts : list of Verdict
+        All of them; ``study["functional.euler#plate"]`` is one.
+    ok : bool
+        Whether everything is as the model expects: exit status 0 of the command.
+    """
+
+    def __init__(self, record: str, summary: str, page: str, is_as_expected: bool) -> None:
+        super().__init__(json.loads(record), summary)
+        self._page = page
+        self.ok = is_as_expected
+        self.verdicts = [Verdict(own) for own in self._data["verdicts"]]
+
+    def __getitem__(self, claim: str) -> Verdict:
+        for own in self.verdicts:
+            if own.claim == claim:
+                return own
+        raise KeyError(f"`{claim}` was not decided")
+
+    def __iter__(self) -> Iterator[Verdict]:
+        return iter(self.verdicts)
+
+    @property
+    def notices(self) -> list[str]:
+        """What a reader must know."""
+        return list(self._data["notices"])
+
+    def summary(self) -> str:
+        """The text that the command prints."""
+        return self._text
+
+    def report(self) -> str:
+        """The report, one HTML page."""
+        return self._page
+
+    def save_report(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report."""
+        write(path, self._page.encode())
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes what the command writes: ``report.html``, and ``study.json`` with its checksum."""
+        page = self._page.encode()
+        write(os.path.join(folder, "report.html"), page)
+        files = [{"name": "report.html", "sha256": hashlib.sha256(page).hexdigest()}]
+        text = json.dumps(self._data | {"files": files}, indent=2, ensure_ascii=False) + "\n"
+        write(os.path.join(folder, "study.json"), text.encode())
+
+    def verify(self) -> Verification:
+        """Decides the record again from the texts in it."""
+        return verify(self.to_dict())
+
+    def render_static(self) -> str:
+        """HTML with the report inside, which exported notebooks keep."""
+        return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
+
+    def _html(self) -> str:
+        rows = "".join(own._row() for own in self.verdicts)
+        notes = "".join(f"<p>{html.escape(own)}</p>" for own in self.notices)
+        return f"<table>{rows}</table>{notes}"
+
+
+class Functional:
+    """A functional of fields over space.
+
+    It is made by :meth:`from_file`, :meth:`from_text` or :meth:`from_gallery`.
+
+    Examples
+    --------
+    >>> plate = Functional.from_gallery("fields/plate")
+    >>> plate.derive().euler
+    Euler equations
+      δw: D (w,xxxx + 2 w,xxyy + w,yyyy) - q = 0
+    >>> plate.study()["functional.euler#plate"].verdict
+    'proved'
+    """
+
+    _native: native.Functional
+
+    def __init__(self) -> None:
+        raise TypeError("a functional is read by from_file, from_text or from_gallery")
+
+    @classmethod
+    def _of(cls, functional: native.Functional) -> Functional:
+        own = cls.__new__(cls)
+        own._native = functional
+        said = functional.warnings()
+        if said:
+            warnings.warn(said, ModelWarning, stacklevel=3)
+        return own
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str], *, set: Mapping[str, Value] | None = None) -> Functional:
+        """Reads a model file with ``kind = "functional"``.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        set : mapping, optional
+            Other values of sizes and parameters, exactly, as ``--set``: ``{"d": 3}``.
+
+        Raises
+        ------
+        ModelError
+            With everything that is wrong, each at its place.
+        """
+        return cls._of(native.Functional.from_file(os.fspath(path), _pairs(set)))
+
+    @classmethod
+    def from_text(
+        cls, text: str, *, path: str | os.PathLike[str] | None = None, set: Mapping[str, Value] | None = None
+    ) -> Functional:
+        """Reads a functional from its text; what it includes is looked for beside ``path``.
+
+        Parameters
+        ----------
+        text : str
+            The text of a model file.
+        path : path, optional
+            Where the text is thought to stand.
+        set : mapping, optional
+            Other values of sizes and parameters.
+        """
+        place = None if path is None else os.fspath(path)
+        return cls._of(native.Functional.from_text(text, place, _pairs(set)))
+
+    @classmethod
+    def from_gallery(cls, name: str, *, set: Mapping[str, Value] | None = None) -> Functional:
+        """A functional that comes with Chetaev; ``chetaev.gallery.list()`` names them.
+
+        Parameters
+        ----------
+        name : str
+            ``elasticity/p4p``, ``fields/plate``, …
+        set : mapping, optional
+            Other values of sizes and parameters.
+        """
+        return cls._of(native.Functional.from_texts(*of_gallery(name), _pairs(set)))
+
+    def with_values(self, **values: Value) -> Functional:
+        """The same functional with other values of sizes and parameters."""
+        path, text, includes, overrides = self._native.texts()
+        kept = [own for own in overrides if own[0] not in values]
+        return self._of(native.Functional.from_texts(path, text, includes, kept + _pairs(values)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, self._native.texts()
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def level(self) -> str | None:
+        """Its level in a hierarchy of functionals, as the file states it."""
+        return self._native.level
+
+    @property
+    def dimensions(self) -> int:
+        """The number of dimensions of space."""
+        return self._native.dimensions
+
+    @property
+    def fields(self) -> dict[str, str]:
+        """Names of the fields that are varied with their kinds: ``scalar``, ``vector``, ``symmetric``, ``matrix``."""
+        return {name: kind for name, kind, _, _ in self._native.fields}
+
+    @property
+    def parameters(self) -> dict[str, str | None]:
+        """Names of the parameters with their exact values; ``None`` where one has no value."""
+        return dict(self._native.parameters)
+
+    @property
+    def text(self) -> str:
+        """The model file."""
+        return self._native.texts()[1]
+
+    def __repr__(self) -> str:
+        fields = ", ".join(f"{name} ({kind})" for name, kind in self.fields.items())
+        return f"<Functional {self.name}: {fields}; {self.dimensions} dimension{'s' if self.dimensions > 1 else ''}>"
+
+    def _repr_html_(self) -> str:
+        return f"<b>{html.escape(self.name)}</b><pre>{html.escape(self.text)}</pre>"
+
+    def check(self) -> Check:
+        """Everything wrong or doubtful in the file."""
+        text, data, has_errors = self._native.check()
+        return Check(json.loads(data), text, has_errors)
+
+    def derive(self) -> FieldDerivation:
+        """Derives the Euler equations and the natural conditions on each piece of the boundary.
+
+        Raises
+        ------
+        NotDerivedError
+            Where the densities have derivatives of an order for which no conditions on the boundary are derived.
+        """
+        return FieldDerivation(self, json.loads(self._native.derive("json")), self._native.derive("text"))
+
+    def study(
+        self,
+        *,
+        claims: str | Iterable[str] | None = None,
+        out: str | os.PathLike[str] | None = None,
+        progress: bool = False,
+    ) -> FunctionalStudy:
+        """Decides every claim.
+
+        Parameters
+        ----------
+        claims : str or list of str, optional
+            Claim ids, such as ``functional.euler``; all when left out.
+        out : path, optional
+            Folder to write the report and the record into.
+        progress : bool
+            Whether a progress bar is shown.
+        """
+        words = "" if claims is None else claims if isinstance(claims, str) else ",".join(claims)
+        with _Progress(progress) as tell:
+            found = FunctionalStudy(*self._native.study(words, tell))
+        if out is not None:
+            found.save(out)
+        return found
+
+    def explain(self, claim: str = "functional.euler") -> Explanation:
+        """What a claim states and how it is decided: :func:`chetaev.explain`."""
+        return explain(claim)
+
+
+def _again(path: str, text: str, includes: Any, overrides: Any) -> Functional:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)
+        return Functional._of(native.Functional.from_texts(path, text, includes, overrides))

@@ -1,0 +1,120 @@
+//! Functionals over space as people see them: the summary, the report, and LaTeX.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
+
+use chetaev_tests::places::{root, scratch};
+use chetaev_tests::program::{ok, text};
+
+/// Every functional of the gallery, by its path from the root.
+fn functionals() -> Vec<String> {
+    let mut found = Vec::new();
+    for group in ["elasticity", "fields"] {
+        let folder = root().join("gallery").join(group);
+        for entry in std::fs::read_dir(folder).expect("a group") {
+            let name = entry.expect("an entry").file_name();
+            let path = format!("gallery/{group}/{}/model.toml", name.display());
+            if root().join(&path).is_file() {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    assert!(found.len() >= 39, "{}", found.len());
+    found
+}
+
+/// Longest line that a person reads without trouble.
+const WIDEST: usize = 110;
+
+#[test]
+fn summaries_of_functionals_fit_a_terminal() {
+    let folder = scratch("functional-summaries");
+    for path in functionals() {
+        let out = ok(&["study", &path, "--out", text(&folder)]).out;
+        for line in out.lines().filter(|line| !line.starts_with("report: ")) {
+            assert!(line.chars().count() <= WIDEST, "{path}: {line}");
+            assert_eq!(line.trim_end(), line, "{path}");
+        }
+    }
+}
+
+/// Rows of LaTeX are whole: braces close, and what is to the left has its right.
+#[test]
+fn equations_of_functionals_are_a_document_of_latex() {
+    for path in functionals() {
+        let out = ok(&["derive", &path, "--as", "latex"]).out;
+        assert!(out.starts_with("\\documentclass{article}"), "{path}");
+        assert!(out.ends_with("\\end{document}\n"), "{path}");
+        assert!(out.is_ascii(), "{path}: {out}");
+        for name in ["align*", "document"] {
+            let count = |what: &str| out.matches(&format!("\\{what}{{{name}}}")).count();
+            assert_eq!(count("begin"), count("end"), "{path}");
+        }
+        for row in out.lines() {
+            let count = |what: &str| row.matches(what).count();
+            assert_eq!(count("{"), count("}"), "{path}: {row}");
+            assert_eq!(count("\\left("), count("\\right)"), "{path}: {row}");
+            assert!(!row.contains("mathrm{1,"), "{path}: {row}");
+        }
+    }
+}
+
+/// The text of a page, without tags, scripts and the model file.
+fn shown(page: &str) -> String {
+    let body = page.split_once("<h1>").expect("a heading").1;
+    let body = body.split("<section id=\"model\"").next().expect("a page");
+    let mut out = String::new();
+    for part in body.split('<') {
+        let (tag, words) = part.split_once('>').unwrap_or(("", part));
+        // Commands for copying and places on the page are written as in the model.
+        if !tag.starts_with("code") {
+            out.push_str(words);
+        }
+    }
+    out
+}
+
+#[test]
+fn reports_of_functionals_are_typeset() {
+    let folder = scratch("functional-report");
+    let path = "gallery/elasticity/p2c1/model.toml";
+    ok(&["study", path, "--set", "d=2", "--out", text(&folder)]);
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let words = shown(&page);
+    for raw in ["S_u", "S_s", "u_k", "s_ij", "ubar", "Pbar", "nonlinear/2"] {
+        let at = words.find(raw);
+        let near = at.map(|at| words[at..].chars().take(60).collect::<String>());
+        assert_eq!(near, None, "{raw}");
+    }
+    for said in [
+        "The functional",
+        "That of δs vanishes identically.",
+        "Each level imposes",
+        "Green's strain of the displacement",
+    ] {
+        let escaped = said.replace('\'', "&#39;");
+        assert!(words.contains(said) || words.contains(&escaped), "{said}");
+    }
+    // Equations that have numbers of their own get no others.
+    assert!(!page.contains("<span class=\"number\">"));
+}
+
+#[test]
+fn ritz_has_a_table_and_a_picture() {
+    let folder = scratch("functional-ritz");
+    let path = "gallery/fields/simply-supported-plate/model.toml";
+    ok(&["study", path, "--out", text(&folder)]);
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    let words = shown(&page);
+    // Navier's series for the middle (Timoshenko and Woinowsky-Krieger, § 30): 0.00406.
+    assert!(words.contains("4.062") && words.contains("Relative error"));
+    assert!(page.contains("<figure class=\"map\">") && page.contains("<p class=\"scale\">"));
+    // What is exact at every degree has no picture of its errors.
+    ok(&[
+        "study",
+        "gallery/fields/bar/model.toml",
+        "--out",
+        text(&folder),
+    ]);
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    assert!(!shown(&page).contains("Convergence of Ritz"));
+}
