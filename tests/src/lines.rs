@@ -21,6 +21,12 @@ pub const MOST: &[(&str, usize)] = &[
     ("slider-crank", 12),
     ("chain", 10),
     ("gyroscope", 12),
+    ("ball-in-bowl", 10),
+    ("four-bar-hinges", 12),
+    ("bricard", 20),
+    ("spherical-robot", 20),
+    ("stewart-platform", 30),
+    ("double-wishbone", 30),
 ];
 
 /// The lines of a model that count: neither empty nor a comment, and not those of `[expect]`.

@@ -5,12 +5,14 @@
 //! record) reads these sections as if a person had written them.
 //!
 //! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
-//! energies, `touching`, `closing` and `couplings` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `shapes`, `joints` and `contacts` are registries.
+//! energies, `touching`, `closing` and `couplings` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `curved` those on surfaces
+//! that are no planes; `shapes`, `joints`, `contacts` and `surfaces` are registries.
 
 mod algebra;
 mod closing;
 mod contacts;
 mod couplings;
+mod curved;
 mod families;
 mod forces;
 mod joints;
@@ -26,6 +28,7 @@ mod sections;
 mod sensing;
 mod shapes;
 mod solids;
+mod surfaces;
 mod touching;
 mod tree;
 

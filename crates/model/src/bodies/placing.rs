@@ -389,7 +389,7 @@ impl<'r> Lowering<'r> {
     /// Whether the rim or sphere of a contact is the body's own, or a wheel turns about its own axle at it.
     fn is_hub_of(&self, name: &str, contact: usize, tree: &Tree<'r>) -> bool {
         let stated = &tree.contacts[contact];
-        if ["at", "axis", "radius"]
+        if ["at", "axis", "radius", "surface"]
             .iter()
             .any(|key| stated.object.get(key).is_some())
         {

@@ -314,6 +314,30 @@ impl<'r> Lowering<'r> {
         Some(self.parameter(slot, &raw, entries))
     }
 
+    /// An expression in which every name is the symbol of that name.
+    pub(crate) fn read_symbols(&mut self, own: &Text) -> Option<Expr> {
+        let parsed = parse_expression(&own.content);
+        let graph = &self.algebra.graph;
+        let mut problems = Vec::new();
+        let value = lower(
+            graph,
+            &parsed.tree,
+            parsed.root(),
+            &Symbols(graph),
+            &[],
+            &mut problems,
+        );
+        if parsed.has_errors() || !problems.is_empty() || value.is_none() {
+            let all = parsed.diagnostics.iter().chain(&problems);
+            let found: Vec<Diagnostic> = all
+                .map(|own_problem| Diagnostic::of_expression(own_problem, own))
+                .collect();
+            self.problems.extend(found);
+            return None;
+        }
+        value
+    }
+
     /// An expression in which parameters occur, and nothing else has a name.
     fn of_parameters(&mut self, own: &Text) -> Option<Expr> {
         let parsed = parse_expression(&own.content);

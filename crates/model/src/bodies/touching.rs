@@ -9,6 +9,7 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
+use super::curved::Ball;
 use super::lowering::{FrameId, Lowering, GROUND};
 use super::objects::KeptReaction;
 use super::placing::Built;
@@ -40,7 +41,7 @@ pub(crate) struct Found {
     /// the normal.
     pub(crate) velocities: [Expr; 3],
     /// The height of its lowest point.
-    height: Expr,
+    pub(crate) height: Expr,
     /// In which axes the following are given.
     pub(crate) axes: FrameId,
     /// The touching point.
@@ -81,6 +82,22 @@ impl<'r> Lowering<'r> {
         };
         let place = object.place;
         let name = object.name().to_owned();
+        if let Some(raw) = object.get("surface") {
+            if figure.outline != Outline::Sphere {
+                let message = format!(
+                    "{}: on a surface that is no plane only balls touch",
+                    object.words()
+                );
+                return self.error("not-allowed-here", raw.place, message);
+            }
+            let ball = Ball {
+                body,
+                plane,
+                radius: figure.radius(),
+                middle: figure.middle,
+            };
+            return self.touch_curved(contact, &ball);
+        }
         let found = match (figure.outline, built) {
             (Outline::Rim, Some(built)) => self.rim_built(&figure, built, plane, body),
             (Outline::Rim | Outline::Torus, _) => self.rim(&figure, plane, body, &name, place),
@@ -88,6 +105,31 @@ impl<'r> Lowering<'r> {
             (Outline::Ellipsoid, _) => self.ellipsoid(&figure, plane, body, &name, place),
             (Outline::None, _) => self.tip(&figure, plane, body),
         };
+        self.hold(contact, &found);
+        self.react_normally(contact, &format!("{name}_touch"), &found);
+        self.stay(&name, found.height, &object.words(), place);
+    }
+
+    /// On a surface that is no plane.
+    fn touch_curved(&mut self, contact: &ContactStated<'r>, ball: &Ball) {
+        let Some(curved) = self.curved(contact, ball) else {
+            return;
+        };
+        self.hold(contact, &curved.found);
+        let object = &contact.object;
+        for held in curved.held {
+            let own = format!("{}_{}", object.name(), held.end);
+            let wrench = [held.force, self.algebra.zero()];
+            self.react_by(contact, &own, &curved.found, wrench);
+            let about = format!("{} stays on its surface", object.words());
+            self.constrain(&own, held.vanishes, about, object.place);
+        }
+    }
+
+    /// What the kind of contact says of velocities, and friction.
+    fn hold(&mut self, contact: &ContactStated<'r>, found: &Found) {
+        let object = &contact.object;
+        let (name, place) = (object.name(), object.place);
         let angle = match object.get("angle") {
             Some(raw) => self.number(&object.slot("angle", "rad"), raw),
             None => None,
@@ -98,12 +140,10 @@ impl<'r> Lowering<'r> {
             let about = format!("{} {}", object.words(), statement.says);
             let vanishes = self.algebra.dot(statement.along, found.velocities);
             let own = format!("{name}{}", statement.suffix);
-            self.react(contact, &own, &found, statement.along);
+            self.react(contact, &own, found, statement.along);
             self.constrain(&own, vanishes, about, place);
         }
-        self.rub_contact(contact, &found);
-        self.react_normally(contact, &format!("{name}_touch"), &found);
-        self.stay(&name, found.height, &object.words(), place);
+        self.rub_contact(contact, found);
     }
 
     /// The reaction of a statement: a force along and across, and a torque about the normal.

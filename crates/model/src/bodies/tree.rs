@@ -71,6 +71,7 @@ const CONTACT_KEYS: &[&str] = &[
     "type",
     "body",
     "on",
+    "surface",
     "at",
     "axis",
     "radius",

@@ -315,3 +315,153 @@ joints.s = { type = "prismatic", child = "block", friction = { coefficient = 0.3
         .iter()
         .all(|parameter| parameter.name != "g"));
 }
+
+const IN_BOWL: &str = r#"
+parameters = { R = 1, r = 0.1 }
+bodies.ball = { mass = 1, inertia = 0.004 }
+joints.free = { child = "ball", type = "free", sequence = "zyx", coordinates = ["x", "y", "z", "a", "b", "c"] }
+contacts.foot = { type = "rolling", body = "ball", radius = "r", surface = { shape = "sphere", radius = "R", inside = true } }
+"#;
+
+/// The middle of a ball in a bowl moves on a sphere, and the point that touches does not move: written with the normal −c/(R − r).
+#[test]
+fn a_ball_in_a_bowl_touches_it() {
+    let own = model(IN_BOWL);
+    let touch = constraint(&own, "foot_touch");
+    same(&own, touch, "-(x^2 + y^2 + z^2 - (R - r)^2)/(2 (R - r))");
+    // At the lowest point the tangents are the axes x and y, and the slip is that on a plane: v + ω × (−r k).
+    let g = &own.graph;
+    let lowest: Vec<(Expr, Expr)> = [("x", "0"), ("y", "0"), ("z", "-(R - r)")]
+        .map(|(name, value)| {
+            (
+                own.expression(name).unwrap(),
+                own.expression(value).unwrap(),
+            )
+        })
+        .to_vec();
+    let at = |name: &str| g.substitute(constraint(&own, name), &lowest);
+    // The angular velocity along fixed axes, of turns about z, y, x.
+    let (wx, wy) = (
+        "(c' cos(b) cos(a) - b' sin(a))",
+        "(c' cos(b) sin(a) + b' cos(a))",
+    );
+    same(&own, at("foot_forward"), &format!("x' - r {wy}"));
+    same(&own, at("foot_side"), &format!("y' + r {wx}"));
+}
+
+/// The sphere as a surface of heights: where the middle of the ball lies on the sphere R − r, the point of contact lies on the radius through
+/// it, and the constraints of both descriptions are the same there.
+#[test]
+fn a_bowl_of_heights_is_the_bowl() {
+    let text = IN_BOWL.replace(
+        "{ shape = \"sphere\", radius = \"R\", inside = true }",
+        "{ coordinates = [\"u\", \"w\"], height = \"-sqrt(R^2 - u^2 - w^2)\" }",
+    );
+    let (one, other) = (model(IN_BOWL), model(&text));
+    let names: Vec<&str> = other
+        .coordinates
+        .iter()
+        .map(|own| own.name.as_str())
+        .collect();
+    assert_eq!(names, ["x", "y", "z", "a", "b", "c", "u", "w"]);
+    let (radius, ball): (f64, f64) = (1.0, 0.1);
+    let state = [
+        ("x", 0.3),
+        ("y", -0.4),
+        ("a", 0.2),
+        ("b", 0.5),
+        ("c", -0.7),
+        ("a'", 1.1),
+        ("b'", -0.6),
+        ("c'", 0.8),
+        ("x'", 0.4),
+        ("y'", 0.9),
+    ];
+    let reach = radius - ball;
+    let z = -(reach * reach - 0.3_f64 * 0.3 - 0.4 * 0.4).sqrt();
+    // The middle stays on its sphere.
+    let rate = -(0.3 * 0.4 - 0.4 * 0.9) / z;
+    let touching = [
+        ("z", z),
+        ("z'", rate),
+        ("u", 0.3 * radius / reach),
+        ("w", -0.4 * radius / reach),
+    ];
+    let value = |model: &Model, name: &str| {
+        let g = &model.graph;
+        let of = |symbol| {
+            let text = g.symbol_text(symbol);
+            let sizes = [("R", radius), ("r", ball)];
+            let all = [&state[..], &touching[..], &sizes[..]].concat();
+            let own = all.into_iter().find(|(own, _)| *own == text);
+            own.map(|(_, x)| x)
+        };
+        g.evaluate_f64(&[constraint(model, name)], &of).unwrap()[0]
+    };
+    for name in ["foot_touch_x", "foot_touch_y", "foot_touch_z"] {
+        assert!(value(&other, name).abs() < 1e-14, "{name}");
+    }
+    assert!(value(&one, "foot_touch").abs() < 1e-14);
+    for name in ["foot_forward", "foot_side"] {
+        let (one, other) = (value(&one, name), value(&other, name));
+        assert!(
+            (one - other).abs() < 1e-13 && one.abs() > 0.1,
+            "{name}: {one}, {other}"
+        );
+    }
+}
+
+#[test]
+fn a_ball_on_a_cylinder_touches_it() {
+    let text = IN_BOWL.replace(
+        "\"sphere\", radius = \"R\", inside = true",
+        "\"cylinder\", axis = \"x\", radius = \"R\"",
+    );
+    let own = model(&text);
+    same(
+        &own,
+        constraint(&own, "foot_touch"),
+        "(y^2 + z^2 - (R + r)^2)/(2 (R + r))",
+    );
+    // Above the axis the slip is that on a plane.
+    let g = &own.graph;
+    let highest: Vec<(Expr, Expr)> = [("y", "0"), ("z", "R + r")]
+        .map(|(name, value)| {
+            (
+                own.expression(name).unwrap(),
+                own.expression(value).unwrap(),
+            )
+        })
+        .to_vec();
+    let side = g.substitute(constraint(&own, "foot_side"), &highest);
+    same(&own, side, "y' + r (c' cos(b) cos(a) - b' sin(a))");
+}
+
+#[test]
+fn surfaces_that_make_no_sense_are_refused() {
+    for (from, to, word) in [
+        ("\"sphere\"", "\"spher\"", "did you mean \"sphere\""),
+        (", radius = \"R\", inside", ", inside", "needs its `radius`"),
+        (
+            "shape = \"sphere\", radius = \"R\", inside = true",
+            "height = \"x^2\"",
+            "not on `x`",
+        ),
+        (
+            "shape = \"sphere\", radius = \"R\", inside = true",
+            "radius = 1",
+            "needs its `shape`",
+        ),
+        ("inside = true", "inside = 1", "true or false"),
+        (
+            "radius = \"r\", surface",
+            "axis = \"y\", radius = \"r\", surface",
+            "only balls touch",
+        ),
+    ] {
+        let loaded = load("model.toml", &IN_BOWL.replace(from, to), &NoFiles, &[]);
+        let message = loaded.diagnostics.to_string();
+        assert!(loaded.model.is_none(), "accepted: {to}");
+        assert!(message.contains(word), "`{word}` is missing in\n{message}");
+    }
+}
