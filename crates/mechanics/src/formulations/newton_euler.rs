@@ -302,8 +302,11 @@ impl Balances {
         let rows = basis.jacobian();
         let lambdas = basis.lambda_symbols();
         for (i, (own, force)) in powers.iter().zip(forces).enumerate() {
+            // What moves no body, as a point of contact with coordinates of its own, has no power: there all multipliers balance.
+            let is_idle = g.is_zero(g.add(own));
             let stated = names.iter().zip(&rows).zip(&lambdas);
-            let stated = stated.filter(|((name, _), _)| mechanism.reaction(name).is_none());
+            let stated =
+                stated.filter(|((name, _), _)| is_idle || mechanism.reaction(name).is_none());
             let mut right: Vec<Expr> = stated
                 .map(|((_, row), &lambda)| g.mul(&[lambda, row[i]]))
                 .collect();

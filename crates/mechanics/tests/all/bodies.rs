@@ -538,7 +538,12 @@ contacts.foot = { type = "rolling", body = "celt" }
 ];
 
 /// The accelerations of a model at a state, as expressions of accelerations ask for them.
-fn accelerations(text: &str, form: &str, state: &[(&str, &str)], asked: &[&str]) -> Vec<f64> {
+pub(crate) fn accelerations(
+    text: &str,
+    form: &str,
+    state: &[(&str, &str)],
+    asked: &[&str],
+) -> Vec<f64> {
     let loaded = load("bodies/model.toml", text, &Gallery, &[]);
     let (model, _) = loaded
         .into_result()
@@ -593,7 +598,7 @@ fn accelerations(text: &str, form: &str, state: &[(&str, &str)], asked: &[&str])
 }
 
 /// Forms that are derived each by its own rule, the last three from the bodies.
-const FORMS: &[&str] = &["routh", "newton-euler", "kane", "gibbs-appell"];
+pub(crate) const FORMS: &[&str] = &["routh", "newton-euler", "kane", "gibbs-appell"];
 
 #[test]
 fn published_accelerations_come_out_of_the_bodies() {

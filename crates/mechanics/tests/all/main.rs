@@ -6,3 +6,5 @@ mod closed_forms;
 mod constraint_set;
 mod formulations;
 mod stated;
+mod surfaces;
+mod trees;

@@ -24,19 +24,27 @@ const COUPLINGS: &[Coupling] = &[
     },
 ];
 
+/// The word of a rope, which couples two points and not coordinates.
+const ROPE: &str = "rope";
+
 const KEYS: &[&str] = &["type", "coordinates", "ratio", "offset", "description"];
 
 /// Whether an entry of `[joints]` couples others.
 pub(crate) fn is_coupling(object: &Object<'_>) -> bool {
     let kind = object.get("type").and_then(Raw::expression);
-    kind.is_some_and(|kind| COUPLINGS.iter().any(|own| own.word == kind.content))
+    kind.is_some_and(|kind| {
+        kind.content == ROPE || COUPLINGS.iter().any(|own| own.word == kind.content)
+    })
 }
 
 impl<'r> Lowering<'r> {
-    /// Writes the constraint of a gear or differential.
+    /// Writes the constraint of a gear, a differential or a rope.
     pub(crate) fn couple(&mut self, object: &Object<'r>) {
-        self.known_keys(object, KEYS);
         let kind = object.get("type").and_then(Raw::expression);
+        if kind.is_some_and(|kind| kind.content == ROPE) {
+            return self.tie(object);
+        }
+        self.known_keys(object, KEYS);
         let Some(kind) = COUPLINGS
             .iter()
             .find(|own| kind.is_some_and(|kind| kind.content == own.word))

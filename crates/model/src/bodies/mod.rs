@@ -5,7 +5,7 @@
 //! record) reads these sections as if a person had written them.
 //!
 //! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
-//! energies, `touching`, `closing` and `couplings` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `curved` those on surfaces
+//! energies, `touching`, `closing`, `couplings` and `ropes` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `curved` those on surfaces
 //! that are no planes; `shapes`, `joints`, `contacts` and `surfaces` are registries.
 
 mod algebra;
@@ -24,6 +24,7 @@ pub(crate) mod objects;
 mod placing;
 mod pruning;
 mod reading;
+mod ropes;
 mod sections;
 mod sensing;
 mod shapes;

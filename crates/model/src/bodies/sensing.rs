@@ -17,6 +17,7 @@ use super::sections::{table, text, word};
 use super::tree::Tree;
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw};
+use crate::source::Place;
 
 const KEYS: &[&str] = &[
     "type",
@@ -51,6 +52,8 @@ struct Probe<'r> {
 struct Part {
     /// The joint, or the contact on which it stands.
     object: String,
+    /// Where that is stated.
+    place: Place,
     /// Its bodies by number.
     bodies: Vec<usize>,
 }
@@ -277,6 +280,12 @@ impl<'r> Lowering<'r> {
                     let one = self.multiplied(object, own, about)?;
                     sum = [0, 1].map(|i| self.algebra.plus(sum[i], one[i]));
                 }
+                // Friction is a part of it.
+                let place = own.first().map(|own| own.place);
+                for load in self.loads.iter().filter(|load| Some(load.place) == place) {
+                    let one = self.about(load, about);
+                    sum = [0, 1].map(|i| self.algebra.plus(sum[i], one[i]));
+                }
                 sum
             }
         };
@@ -287,16 +296,18 @@ impl<'r> Lowering<'r> {
     /// What hangs by a joint, or stands on a contact that is built into its coordinates.
     fn part(&self, name: &str, whole: Whole<'_, 'r>) -> Option<Part> {
         let tree = whole.tree;
-        let root = match whole
-            .built
-            .iter()
-            .find(|own| tree.contacts[own.contact].object.name() == name)
-        {
-            Some(built) => built.body.clone(),
+        let mut built = whole.built.iter();
+        let is_named = |own: &&Built| tree.contacts[own.contact].object.name() == name;
+        let (root, place) = match built.find(is_named) {
+            Some(built) => (
+                built.body.clone(),
+                tree.contacts[built.contact].object.place,
+            ),
             None => {
                 let mut placing = tree.placing.iter();
-                let is_named = |joint: &usize| tree.joints[*joint].object.name() == name;
-                placing.find(|(_, joint)| is_named(joint))?.0.clone()
+                let (body, joint) =
+                    placing.find(|(_, joint)| tree.joints[**joint].object.name() == name)?;
+                (body.clone(), tree.joints[*joint].object.place)
             }
         };
         let bodies = (0..self.bodies.len()).filter(|&number| {
@@ -308,6 +319,7 @@ impl<'r> Lowering<'r> {
         });
         Some(Part {
             object: name.to_owned(),
+            place,
             bodies: bodies.collect(),
         })
     }
@@ -392,7 +404,9 @@ impl<'r> Lowering<'r> {
                 sum = self.less(sum, one, outside.0);
             }
         }
-        for own in self.loads.clone() {
+        let loads = self.loads.clone().into_iter();
+        // The friction of the contact itself is a part of what it exerts.
+        for own in loads.filter(|own| own.place != part.place) {
             let outside = side(&own);
             if outside.0 != outside.1 {
                 let one = self.about(&own, about);

@@ -43,7 +43,7 @@ pub(crate) struct Tree<'t> {
     pub(crate) placing: BTreeMap<String, usize>,
     /// Joints between bodies that others have placed.
     pub(crate) closing: Vec<usize>,
-    /// Gears and differentials.
+    /// Gears, differentials and ropes.
     pub(crate) couplings: Vec<Object<'t>>,
 }
 

@@ -235,7 +235,7 @@ impl Checker<'_> {
         self.compare_kind(
             checked,
             &wanted,
-            "Rayleigh's function has the dimension of L/t,",
+            "a power, as Rayleigh's function, has the dimension of L/t,",
         );
     }
 

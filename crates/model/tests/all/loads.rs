@@ -465,3 +465,63 @@ fn surfaces_that_make_no_sense_are_refused() {
         assert!(message.contains(word), "`{word}` is missing in\n{message}");
     }
 }
+
+/// Friction belongs to what a contact exerts, another force on the body does not.
+#[test]
+fn the_reaction_of_a_contact_contains_its_friction() {
+    let text = r#"
+bodies.block = { mass = 2, inertia = 1 }
+joints.plane = { type = "free", child = "block", coordinates = ["x", "y", "z", "a", "b", "c"] }
+contacts.foot = { type = "sliding", body = "block", at = [0, 0, 0], friction = { viscous = 0.7 } }
+forces.push = { body = "block", force = [5, 0, 0] }
+sensors.foot = { type = "reaction", of = "foot" }
+"#;
+    let own = model(text);
+    let g = &own.graph;
+    let level: Vec<(Expr, Expr)> = ["a", "b", "c"]
+        .map(|name| (own.expression(name).unwrap(), g.zero()))
+        .to_vec();
+    let found = g.substitute(sensor(&own, "foot_force_x"), &level);
+    same(&own, found, "-foot_friction_viscous x'");
+}
+
+/// A ball on a rope is a pendulum as long as the rope pulls: its tension is the multiplier with the other sign.
+#[test]
+fn a_rope_keeps_its_length_while_it_is_taut() {
+    let text = r#"
+bodies.ball = { mass = 2 }
+joints.x = { type = "prismatic", axis = "x", child = "seat" }
+bodies.seat = {}
+joints.z = { type = "prismatic", axis = "z", parent = "seat", child = "ball" }
+joints.cord = { type = "rope", body = "ball", to = "ground", to_at = [0, 0, 1], length = 0.8 }
+sensors.pull = { type = "reaction", of = "cord" }
+"#;
+    let own = model(text);
+    let span = "sqrt(x^2 + (cord_to_at_z - z)^2)";
+    same(
+        &own,
+        constraint(&own, "cord"),
+        &format!("{span} - cord_length"),
+    );
+    assert_eq!(
+        (own.events[0].name.as_str(), own.events[0].stops),
+        ("cord_slack", true)
+    );
+    // The force is the gradient of the constraint times the multiplier.
+    let g = &own.graph;
+    let pull = g.substitute(
+        sensor(&own, "pull_force_x"),
+        &[(g.symbol("lambda_cord", 0), g.one())],
+    );
+    same(&own, pull, &format!("x/{span}"));
+    let loaded = load(
+        "model.toml",
+        &text.replace(", length = 0.8", ""),
+        &NoFiles,
+        &[],
+    );
+    assert!(loaded
+        .diagnostics
+        .to_string()
+        .contains("needs its `length`"));
+}
