@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import html
 import json
 import os
@@ -170,6 +169,8 @@ class FunctionalStudy(Result):
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes what the command writes: ``report.html``, and ``study.json`` with its checksum."""
+        import hashlib
+
         page = self._page.encode()
         write(os.path.join(folder, "report.html"), page)
         files = [{"name": "report.html", "sha256": hashlib.sha256(page).hexdigest()}]

@@ -29,7 +29,10 @@ pub(crate) fn hanging(first: &str, words: &str) -> String {
     text
 }
 
-/// A formula in lines of at most [`WIDTH`] characters: the first after `first`, the others a little behind its end. Terms stay
+/// Characters of a usual term within parentheses.
+const TERM: usize = 28;
+
+/// A formula in lines of about [`WIDTH`] characters: the first after `first`, the others a little behind its end. Terms stay
 /// whole where they fit.
 pub(crate) fn terms(first: &str, formula: &str) -> String {
     let room = WIDTH.saturating_sub(first.chars().count() + 2);
@@ -37,7 +40,7 @@ pub(crate) fn terms(first: &str, formula: &str) -> String {
     for word in formula.split_whitespace() {
         let is_sign = matches!(word, "+" | "-" | "=");
         match whole.last_mut() {
-            Some(last) if !is_sign || depth > 0 && last.chars().count() < room => {
+            Some(last) if !is_sign || depth > 0 && last.chars().count() + TERM < room => {
                 last.push(' ');
                 last.push_str(word);
             }

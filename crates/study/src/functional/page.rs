@@ -400,5 +400,6 @@ fn claim(f: &Functional, decided: &Decided) -> Claim {
         ..Claim::default()
     };
     evidence(&mut claim, verdict);
+    claim.on = claim.on.map(|on| in_print(&on));
     claim
 }
