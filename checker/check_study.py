@@ -22,8 +22,12 @@ real ones are, and the roots of 2 and 3 exist.
 A refutation is checked at real points: the numbers of the counterexample are intervals with integers as ends, and what ought to
 vanish must have an interval without zero.
 
+A record of a functional of fields over space has its densities and equations in `model.flat`; its first variation is derived anew
+(theory 4), at random jets modulo a prime.
+
 Files: `expressions` (nodes, parser, derivatives), `fields` (series over a prime field), `systems` (the model, points of its constraints,
-motions), `intervals` (real values), and `claims/`, one file for each kind of claim.
+motions), `intervals` (real values), `index_notation` and `functionals` (fields over
+space), and `claims/`, one file for each kind of claim.
 """
 import importlib
 import json
@@ -38,6 +42,7 @@ sys.setrecursionlimit(10_000)
 import intervals  # noqa: E402
 from expressions import NODES, BadPoint, NotCheckable, reach  # noqa: E402
 from systems import System  # noqa: E402
+import functionals  # noqa: E402
 
 POINTS, SIGNS = 3, 12
 # For identities of degree up to 2^20 in all generators, whose coefficients have up to 2^20 digits: a point errs with probability at
@@ -232,7 +237,7 @@ def check(record, seed=0, only=""):
     if not (isinstance(record, dict) and isinstance(record.get("model"), dict) and isinstance(record.get("verdicts"), list)):
         raise ValueError("it is no record of a study")
     try:
-        cx = Context(record, seed)
+        cx = (functionals.Context if record.get("functional") else Context)(record, seed)
     except NotCheckable as why:
         return [(full(v), v["verdict"], OPEN, str(why)) for v in record["verdicts"] if only in full(v)]
     lines = []

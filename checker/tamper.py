@@ -10,6 +10,7 @@ constraints or emptied, the lowered model given another force. The exit status i
 import copy
 import json
 import pathlib
+import re
 import sys
 
 import check_study
@@ -93,12 +94,50 @@ def of_equations(entry, coordinates):
             yield f"variable {i}", {"state": changed(entry["state"], i, x | {"definition": f"2 ({x['definition']}) + 1"})}
 
 
+def of_functional(record):
+    """Changes of a record of a functional: triples of a word, the beginning of the claim, and the record."""
+    flat, own = record["model"]["flat"], record["functional"]
+    put = lambda text: record | {"model": record["model"] | {"flat": text}}
+    field = re.search(r'\[fields\]\n"(\w+)" = \{ "kind" = "(\w+)"', flat)
+    index = {"scalar": "", "vector": "_1", "symmetric": "_11", "matrix": "_11"}[field[2]]
+    for k, line in enumerate(own["euler"]):
+        for word, text in (("of other sign", f"-({line['zero']})"), ("with a term added", f"{line['zero']} + 1")):
+            entry = own | {"euler": changed(own["euler"], k, line | {"zero": text})}
+            yield f"the equation of {line['of']} {word}", "functional.euler", record | {"functional": entry}
+    more = f"{field[1]}{index}^3"
+    yield "a term added to the density", "functional", put(flat.replace('density = "', f'density = "{more} + ', 1))
+    labels = re.search(r"^yields = \[(.*)\]$", flat, re.M)
+    if labels and labels[1]:
+        rest = ", ".join(labels[1].split(", ")[1:])
+        yield "an equation left out of those that follow", "functional.euler", put(flat.replace(labels[0], f"yields = [{rest}]", 1))
+    on = re.search(r'\[boundary\]\n"[^"]*" = \{ "density" = "', flat)
+    if on:
+        yield "a term added on the boundary", "functional", put(flat.replace(on[0], f"{on[0]}{more} + ", 1))
+    for word, before, after in (("another flux", '"flux" = "', '"flux" = "2 '), ("another value", '"value" = "-', '"value" = "'),
+                                ("another special value", '"at" = { "beta" = "', '"at" = { "beta" = "1/3 + ')):
+        if before in flat:
+            claim = {"flux": "duality", "valu": "solution", "at\" ": "degeneration"}.get(before[1:5], "degeneration")
+            yield word, f"functional.{claim}", put(flat.replace(before, after, 1))
+    for k, verdict in enumerate(record["verdicts"]):
+        if " modulo " in verdict["detail"] and verdict["claim"] == "functional.duality":
+            entry = verdict | {"detail": verdict["detail"].split(" modulo ")[0]}
+            yield "no equations named", full(verdict), record | {"verdicts": changed(record["verdicts"], k, entry)}
+
+
 def changed(items, i, item):
     return items[:i] + [item] + items[i + 1:]
 
 
 def tampered(record, confirmed):
     """Triples of a word, the claim it touches, and the record."""
+    if record.get("functional"):
+        for word, claim, false in of_functional(record):
+            if any(own.startswith(claim) for own in confirmed):
+                yield word, claim, false
+        for k, verdict in enumerate(record["verdicts"]):
+            if full(verdict) in confirmed:
+                yield "refuted", full(verdict), record | {"verdicts": changed(record["verdicts"], k, verdict | {"verdict": "refuted"})}
+        return
     for k, verdict in enumerate(record["verdicts"]):
         if full(verdict) in confirmed:
             for word, change in of_verdict(record, verdict):

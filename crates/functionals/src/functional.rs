@@ -303,6 +303,8 @@ pub struct Solution {
     pub name: String,
     /// What it is.
     pub description: String,
+    /// Names of its own constants.
+    pub parameters: Vec<String>,
     /// Fields, data, parameters and constitutive functions with their values.
     pub values: Vec<Special>,
     /// The box.

@@ -3,44 +3,14 @@
 use crate::claims::{Claim, Context, Finding, CLAIMS};
 use crate::functional::Problem;
 use crate::variation::{Variation, VariationError};
+use chetaev_model::decided::full_id;
 use chetaev_symbolic::syntax::names::closest;
 
-/// A claim with its verdict.
-#[derive(Clone, Debug)]
-pub struct Decided {
-    /// Id without subject.
-    pub claim: &'static str,
-    /// Subject.
-    pub subject: Option<String>,
-    /// Title for people.
-    pub title: &'static str,
-    /// Verdict and formulas.
-    pub finding: Finding,
-    /// Seconds spent.
-    pub seconds: f64,
-    /// Verdicts that the model accepts, if it expects any.
-    pub expected: Vec<String>,
-}
+/// A claim about a functional with its verdict.
+pub type Decided = chetaev_model::decided::Decided<Finding>;
 
-impl Decided {
-    /// `id#subject`.
-    pub fn full_id(&self) -> String {
-        full_id(self.claim, self.subject.as_deref())
-    }
-
-    /// Whether the model's expectation is met; true where it has none.
-    pub fn is_as_expected(&self) -> bool {
-        let word = self.finding.verdict.word();
-        self.expected.is_empty() || self.expected.iter().any(|own| own == word)
-    }
-}
-
-fn full_id(claim: &str, subject: Option<&str>) -> String {
-    match subject {
-        Some(subject) => format!("{claim}#{subject}"),
-        None => claim.to_owned(),
-    }
-}
+/// The word of the group that all claims of this crate are of.
+pub const GROUP: &str = "functional";
 
 /// A functional with everything that is known about it.
 #[derive(Debug)]
@@ -130,6 +100,8 @@ fn decided(
         claim: claim.id(),
         subject,
         title: claim.title(),
+        group: GROUP,
+        requires: Vec::new(),
         finding,
         seconds: clock() - start,
         expected: of_all.map_or(Vec::new(), |(_, words)| words.clone()),

@@ -6,6 +6,7 @@
 
 mod bodies;
 mod builder;
+pub mod decided;
 mod diagnostic;
 mod dimension;
 pub mod drawing;

@@ -145,7 +145,7 @@ mod tests {
             claim,
             subject: None,
             title: "",
-            group: Group::Principles,
+            group: Group::Principles.word(),
             requires: Vec::new(),
             finding: Arc::new(Verdict::Refuted(found).into()),
             seconds: 0.0,

@@ -165,7 +165,11 @@ fn parameters(text: &mut String, model: &Model) {
     table(text, "parameters", entries);
 }
 
-fn table(text: &mut String, heading: &str, entries: impl Iterator<Item = (String, String)>) {
+pub(crate) fn table(
+    text: &mut String,
+    heading: &str,
+    entries: impl Iterator<Item = (String, String)>,
+) {
     let entries: Vec<(String, String)> = entries.collect();
     if entries.is_empty() {
         return;
@@ -177,17 +181,17 @@ fn table(text: &mut String, heading: &str, entries: impl Iterator<Item = (String
     }
 }
 
-fn line(text: &mut String, key: &str, value: &str) {
+pub(crate) fn line(text: &mut String, key: &str, value: &str) {
     let _ = writeln!(text, "{key} = {value}");
 }
 
-fn array(items: impl IntoIterator<Item = String>) -> String {
+pub(crate) fn array(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();
     format!("[{}]", items.join(", "))
 }
 
 /// A basic string of TOML.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
     for c in text.chars() {

@@ -109,7 +109,8 @@ pub struct ModelRecord {
     pub includes: Vec<FileRecord>,
     /// Overrides as given.
     pub overrides: Vec<OverrideRecord>,
-    /// The model lowered to coordinates, L, Q and constraints, as a model file; null where a mass contains velocities.
+    /// The model lowered to coordinates, L, Q and constraints, as a model file; null where a mass contains velocities. Of a functional:
+    /// the same in one file, with the functionals it is related to under `[others.NAME]`.
     #[serde(default)]
     pub flat: Option<String>,
 }

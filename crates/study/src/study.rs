@@ -46,42 +46,8 @@ use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A claim with its verdict.
-#[derive(Clone, Debug)]
-pub struct Decided {
-    /// Id without subject.
-    pub claim: &'static str,
-    /// Subject.
-    pub subject: Option<String>,
-    /// Title for people.
-    pub title: &'static str,
-    /// Group.
-    pub group: Group,
-    /// Hypotheses.
-    pub requires: Vec<String>,
-    /// Verdict and formulas.
-    pub finding: Arc<Finding>,
-    /// Seconds spent.
-    pub seconds: f64,
-    /// Verdicts the model accepts, if it expects any.
-    pub expected: Vec<String>,
-}
-
-impl Decided {
-    /// `id#subject`.
-    pub fn full_id(&self) -> String {
-        full_id(self.claim, self.subject.as_deref())
-    }
-
-    /// Whether the model's expectation is met; true when it has none.
-    pub fn is_as_expected(&self) -> bool {
-        self.expected.is_empty()
-            || self
-                .expected
-                .iter()
-                .any(|w| w == self.finding.verdict.word())
-    }
-}
+/// A claim about a system with its verdict.
+pub type Decided = chetaev_model::decided::Decided<Arc<Finding>>;
 
 /// A computed motion with what is known about it.
 #[derive(Debug)]
@@ -838,7 +804,7 @@ fn decide_all(
             let decided = Decided {
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
-                group: claim.group(),
+                group: claim.group().word(),
                 requires: hypotheses(strata, known, claim.requires(subject.as_deref())),
                 finding,
                 seconds: (hooks.clock)() - start,
@@ -850,7 +816,7 @@ fn decide_all(
         }
     }
     // Where they follow each other is the order of the groups.
-    let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
+    let place = |d: &Decided| Group::ALL.iter().position(|g| g.word() == d.group);
     verdicts.sort_by_key(place);
     verdicts
 }

@@ -96,7 +96,8 @@ fn shortened(text: &str, most: usize) -> String {
 pub fn listing(study: &Study, groups: &[Group], style: Style) -> String {
     let mut text = String::new();
     for &group in groups {
-        let of_group: Vec<&Decided> = study.verdicts.iter().filter(|d| d.group == group).collect();
+        let is_of = |d: &&Decided| d.group == group.word();
+        let of_group: Vec<&Decided> = study.verdicts.iter().filter(is_of).collect();
         if of_group.is_empty() {
             continue;
         }

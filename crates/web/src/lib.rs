@@ -204,7 +204,7 @@ pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result
 fn said(decided: &Decided) -> String {
     json!({
         "id": decided.full_id(),
-        "group": decided.group.word(),
+        "group": decided.group,
         "title": decided.title,
         "verdict": decided.finding.verdict.word(),
         "detail": decided.finding.verdict.detail(),

@@ -89,6 +89,72 @@ fn tampered_records_are_rejected() {
     assert!(counts[0] >= 300 && counts[0] == counts[1], "{said}");
 }
 
+/// Records of functionals: of the theory's table, in two dimensions and of the bar, and classical ones.
+fn functionals() -> &'static [PathBuf] {
+    static RECORDS: OnceLock<Vec<PathBuf>> = OnceLock::new();
+    RECORDS.get_or_init(|| {
+        let plane: &[&str] = &["--set", "d=2"];
+        let bar: &[&str] = &["--set", "d=1", "--set", "nonlinear=0"];
+        let models = [
+            ("elasticity/p4p", plane),
+            ("elasticity/p3pb", plane),
+            ("elasticity/p2p0", plane),
+            ("elasticity/p2pb", bar),
+            ("elasticity/pc", bar),
+            ("fields/plate", &[]),
+            ("fields/minimal-surface", &[]),
+        ];
+        let study = |(name, set): (&str, &[&str])| {
+            let folder = scratch(&format!("checker-{}", name.replace('/', "-")));
+            let model = format!("gallery/{name}/model.toml");
+            ok(&[&["study", &model, "--out", text(&folder)], set].concat());
+            folder.join("study.json")
+        };
+        models.into_iter().map(study).collect()
+    })
+}
+
+#[test]
+fn what_is_proved_of_functionals_is_confirmed() {
+    if !has_python() {
+        return;
+    }
+    let mut confirmed = 0;
+    for record in functionals() {
+        let finished = run(&["verify", text(record), "--independent", "--json"]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        for line in finished.json().as_array().expect("an array") {
+            let claim = line["claim"].as_str().expect("an id");
+            let is_known = !claim.starts_with("functional.multipliers");
+            if is_known && line["verdict"] == "proved" {
+                assert_eq!(line["outcome"], "confirmed", "{}: {line}", record.display());
+                confirmed += 1;
+            }
+        }
+    }
+    assert!(confirmed >= 20, "{confirmed}");
+}
+
+#[test]
+fn tampered_records_of_functionals_are_rejected() {
+    if !has_python() {
+        return;
+    }
+    let finished = Command::new("python3")
+        .args(["-B", "checker/tamper.py"])
+        .args(functionals())
+        .current_dir(root())
+        .output()
+        .expect("Python runs");
+    let said = String::from_utf8_lossy(&finished.stdout);
+    assert!(finished.status.success(), "{said}");
+    let counts: Vec<u32> = said
+        .split_whitespace()
+        .filter_map(|w| w.parse().ok())
+        .collect();
+    assert!(counts[0] >= 70 && counts[0] == counts[1], "{said}");
+}
+
 #[test]
 fn the_program_carries_every_file_of_the_checker() {
     let carried =

@@ -1,6 +1,8 @@
 //! `functional.legendre`: stated constitutive functions are Legendre conjugates.
 
 use super::{Claim, Context, Finding};
+use crate::functional::Constitutive;
+use crate::space::Space;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -66,9 +68,22 @@ impl Claim for Legendre {
             terms.push(g.neg(g.mul(&[g.integer(m), x, y])));
         }
         residuals.push(g.add(&terms));
-        match space.vanishing(&residuals, true) {
+        let (verdict, on) = match space.vanishing(&residuals, true) {
+            proved @ Verdict::Proved(_) => (
+                proved,
+                "all arguments for which both functions are defined".to_owned(),
+            ),
+            open => on_image(space, own, &residuals).map_or((open, String::new()), |proof| {
+                let on = format!(
+                    "all arguments that are values of the gradient of {}",
+                    own.name
+                );
+                (Verdict::Proved(proof), on)
+            }),
+        };
+        match verdict {
             Verdict::Proved(proof) => Verdict::Proved(Proof {
-                on: "all arguments for which both functions are defined".into(),
+                on,
                 detail: format!(
                     "the gradients of {} and {} undo each other, and both functions add up to the product",
                     space.function_at(other).name,
@@ -79,6 +94,29 @@ impl Claim for Legendre {
             other => other,
         }
         .into()
+    }
+}
+
+/// The proof at arguments that are values of the function's own gradient: inverse functions undo each other there.
+fn on_image(space: &Space, own: &Constitutive, residuals: &[Expr]) -> Option<Proof> {
+    let g = &space.graph;
+    let slots = space.slots(own.function);
+    let image: Option<Vec<Expr>> = (0..slots.len())
+        .map(|k| space.body(own.function, &[k], &slots))
+        .collect();
+    let image = image?;
+    let moved: Vec<Expr> = residuals
+        .iter()
+        .map(|&e| {
+            space.replace(e, &|symbol| {
+                let at = slots.iter().position(|&s| g.as_symbol(s) == Some(symbol))?;
+                image.get(at).copied()
+            })
+        })
+        .collect();
+    match space.vanishing(&moved, true) {
+        Verdict::Proved(proof) => Some(proof),
+        _ => None,
     }
 }
 

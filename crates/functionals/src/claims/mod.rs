@@ -16,6 +16,7 @@ use crate::functional::{Functional, Problem};
 use crate::notation::{written, Node};
 use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
+use chetaev_model::decided::Found;
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -71,6 +72,12 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Formulas to show.
     pub formulas: Vec<Formula>,
+}
+
+impl Found for Finding {
+    fn verdict(&self) -> &Verdict {
+        &self.verdict
+    }
 }
 
 impl From<Verdict> for Finding {

@@ -45,7 +45,7 @@ impl Reader<'_> {
             Some(raw) => self.texts(raw, "parameters"),
             None => Vec::new(),
         };
-        for name in names {
+        for name in &names {
             if scope.rank(&name.content).is_some() {
                 let message = format!("`{}` is declared already", name.content);
                 self.push(Diagnostic::error("declared-twice", name.place, message));
@@ -77,6 +77,7 @@ impl Reader<'_> {
         Some(Solution {
             name: key.content.clone(),
             description: description.map_or(String::new(), |text| text.content),
+            parameters: names.into_iter().map(|text| text.content).collect(),
             values,
             intervals,
             pieces,

@@ -4,6 +4,8 @@
 //! claims as slices; a [`Registry`] joins them, and hypotheses are resolved by id at run time, so that a formulation
 //! may require a verdict of the geometry without the crates knowing each other.
 
+pub use chetaev_model::decided::full_id;
+
 pub mod bodies;
 pub mod formulation;
 pub mod gauss;
@@ -28,6 +30,7 @@ use crate::redundancy::LeftOut;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words;
+use chetaev_model::decided::Found;
 use chetaev_symbolic::{Expr, Verdict};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
@@ -108,6 +111,12 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Formulas to show.
     pub formulas: Vec<Formula>,
+}
+
+impl Found for Finding {
+    fn verdict(&self) -> &Verdict {
+        &self.verdict
+    }
 }
 
 impl From<&DeriveError> for Verdict {
@@ -360,14 +369,6 @@ fn on_component(verdict: Verdict, component: &str) -> Verdict {
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// `id#subject`, or `id`.
-pub fn full_id(id: &str, subject: Option<&str>) -> String {
-    match subject {
-        Some(subject) => format!("{id}#{subject}"),
-        None => id.to_string(),
-    }
 }
 
 impl<'a> Context<'a> {

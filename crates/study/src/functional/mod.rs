@@ -1,6 +1,7 @@
 //! Studies of functionals for people and programs: the summary, the record and the report.
 
 mod derivation;
+mod flat;
 mod page;
 mod pictures;
 mod record;

@@ -1,5 +1,6 @@
 //! `study.json` of a functional.
 
+use super::flat::flat;
 use super::shown::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use crate::record::{
     of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
@@ -17,7 +18,10 @@ pub fn record(study: &Study, claims: &[String], files: &[WrittenRecord]) -> Reco
     Record {
         schema: SCHEMA.into(),
         chetaev: env!("CARGO_PKG_VERSION").into(),
-        model: ModelRecord::of(&study.problem.text),
+        model: ModelRecord {
+            flat: Some(flat(&study.problem)),
+            ..ModelRecord::of(&study.problem.text)
+        },
         verdicts: study.verdicts.iter().map(|d| verdict(study, d)).collect(),
         equations: Vec::new(),
         trajectory: None,

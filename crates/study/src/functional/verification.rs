@@ -43,6 +43,12 @@ pub fn verify(recorded: &Record, text: &ModelText) -> Result<Vec<Verified>, Veri
     }
     let (old, new) = (recorded.functional.as_ref(), again.functional.as_ref());
     lines.extend(equations(old, new));
+    if recorded.model.flat != again.model.flat {
+        let found = "another text".to_owned();
+        let detail = "the lowered functional is not that of the texts".to_owned();
+        let replay = Replay::Differs { found, detail };
+        lines.push(line("functional: lowered text", "stated", replay));
+    }
     Ok(lines)
 }
 
