@@ -150,6 +150,8 @@ pub const FUNCTIONAL: &str = "functional";
 pub struct Tables {
     /// The keys; none where a file could not be read.
     pub table: Option<Table>,
+    /// The word under `kind`, in a file whose includes could not be read too.
+    pub kind: Option<String>,
     /// The main text.
     pub source: SourceId,
     /// All texts.
@@ -165,9 +167,7 @@ pub struct Tables {
 impl Tables {
     /// Whether the file states a functional of fields over space.
     pub fn is_functional(&self) -> bool {
-        let kind = self.table.as_ref().and_then(|table| table.get("kind"));
-        let word = kind.and_then(Raw::expression);
-        word.is_some_and(|text| text.content == FUNCTIONAL)
+        self.kind.as_deref() == Some(FUNCTIONAL)
     }
 }
 
@@ -184,7 +184,12 @@ pub fn tables(
     let source = loader.sources.add(path, text);
     let table = loader.file(path, text, source);
     let read = loader.overrides(overrides);
+    let kind = table.as_ref().and_then(|table| table.get("kind"));
+    let kind = kind
+        .and_then(Raw::expression)
+        .map(|own| own.content.clone());
     Tables {
+        kind,
         table: table.filter(|_| !loader.failed),
         source,
         overrides: read.into_iter().map(|o| (o.name, o.value)).collect(),

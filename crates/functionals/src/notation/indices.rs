@@ -2,6 +2,7 @@
 
 use super::{Atom, Index, Kind, Names, Node};
 use chetaev_symbolic::syntax::{Diagnostic, Span};
+use chetaev_symbolic::Rational;
 use std::collections::BTreeMap;
 
 /// What the letters of a piece do.
@@ -9,12 +10,25 @@ use std::collections::BTreeMap;
 struct Letters {
     /// How often each occurs where the summation convention sees it; the place of the last occurrence.
     seen: BTreeMap<char, (usize, Span)>,
+    /// How many sums stand inside each other here.
+    sums: u32,
 }
+
+/// A sum with more terms than this is refused: written out it would fill the memory before anything is said of it.
+const MOST_TERMS: usize = 100_000;
 
 impl Letters {
     fn free(&self) -> Vec<char> {
         let once = self.seen.iter().filter(|(_, (count, _))| *count == 1);
         once.map(|(letter, _)| *letter).collect()
+    }
+
+    /// No letters, around parts with so many sums.
+    fn of_scalar(parts: impl IntoIterator<Item = u32>) -> Letters {
+        Letters {
+            sums: parts.into_iter().max().unwrap_or(0),
+            ..Letters::default()
+        }
     }
 
     fn add(&mut self, letter: char, count: usize, span: Span) {
@@ -117,28 +131,23 @@ fn letters_of(node: &Node, names: &dyn Names, problems: &mut Vec<Diagnostic>) ->
         Kind::Sum(terms) => of_sum(terms, names, problems),
         Kind::Product(factors) => of_product(factors, node.span, names, problems),
         Kind::Power(base, exponent) => {
-            for part in [base, exponent] {
-                scalar(part, "a power", names, problems);
-            }
-            Letters::default()
+            let parts = [base, exponent].map(|part| scalar(part, "a power", names, problems));
+            Letters::of_scalar(parts)
         }
         Kind::Apply(_, arguments) => {
-            for argument in arguments {
-                scalar(argument, "the argument of a function", names, problems);
-            }
-            Letters::default()
+            let what = "the argument of a function";
+            Letters::of_scalar(arguments.iter().map(|a| scalar(a, what, names, problems)))
         }
-        Kind::Root(inner) => {
-            scalar(inner, "a square root", names, problems);
-            Letters::default()
-        }
+        Kind::Root(inner) => Letters::of_scalar([scalar(inner, "a square root", names, problems)]),
         Kind::Derivative(inner, derivatives) => {
-            let mut letters = Letters::default();
-            for letter in letters_of(inner, names, problems).free() {
+            let own = letters_of(inner, names, problems);
+            let mut letters = Letters::of_scalar([own.sums]);
+            for letter in own.free() {
                 letters.add(letter, 1, inner.span);
             }
             add_all(&mut letters, derivatives, node.span);
             thrice(&letters, problems);
+            summed(&mut letters, node.span, names, problems);
             letters
         }
     }
@@ -193,9 +202,11 @@ fn of_atom(atom: &Atom, span: Span, names: &dyn Names, problems: &mut Vec<Diagno
     letters
 }
 
-fn scalar(node: &Node, what: &str, names: &dyn Names, problems: &mut Vec<Diagnostic>) {
+/// A part that must be a scalar; how many sums stand inside each other in it.
+fn scalar(node: &Node, what: &str, names: &dyn Names, problems: &mut Vec<Diagnostic>) -> u32 {
     let before = problems.len();
-    let free = letters_of(node, names, problems).free();
+    let own = letters_of(node, names, problems);
+    let free = own.free();
     if problems.len() == before && !free.is_empty() {
         problems.push(
             Diagnostic::error(
@@ -206,13 +217,17 @@ fn scalar(node: &Node, what: &str, names: &dyn Names, problems: &mut Vec<Diagnos
             .hint("write a square as a product: u_i u_i"),
         );
     }
+    own.sums
 }
 
 fn of_sum(terms: &[(bool, Node)], names: &dyn Names, problems: &mut Vec<Diagnostic>) -> Letters {
     let mut first: Option<(Vec<char>, Span)> = None;
+    let mut sums = 0;
     for (_, term) in terms {
         let before = problems.len();
-        let free = letters_of(term, names, problems).free();
+        let own = letters_of(term, names, problems);
+        sums = sums.max(own.sums);
+        let free = own.free();
         if problems.len() > before {
             continue;
         }
@@ -225,7 +240,7 @@ fn of_sum(terms: &[(bool, Node)], names: &dyn Names, problems: &mut Vec<Diagnost
             Some(_) => {}
         }
     }
-    let mut letters = Letters::default();
+    let mut letters = Letters::of_scalar([sums]);
     if let Some((free, span)) = first {
         free.into_iter()
             .for_each(|letter| letters.add(letter, 1, span));
@@ -235,17 +250,27 @@ fn of_sum(terms: &[(bool, Node)], names: &dyn Names, problems: &mut Vec<Diagnost
 
 fn of_product(
     factors: &[(bool, Node)],
-    _span: Span,
+    span: Span,
     names: &dyn Names,
     problems: &mut Vec<Diagnostic>,
 ) -> Letters {
     let mut letters = Letters::default();
     for (divides, factor) in factors {
         if *divides {
-            scalar(factor, "a divisor", names, problems);
+            letters.sums = letters
+                .sums
+                .max(scalar(factor, "a divisor", names, problems));
+            if matches!(&factor.kind, Kind::Number(n) if *n == Rational::ZERO) {
+                problems.push(Diagnostic::error(
+                    "division-by-zero",
+                    factor.span,
+                    "division by zero",
+                ));
+            }
             continue;
         }
         let own = letters_of(factor, names, problems);
+        letters.sums = letters.sums.max(own.sums);
         // Letters summed over inside parentheses are their own; at a name they count.
         let counts_all = matches!(factor.kind, Kind::Atom(_));
         for (letter, (count, span)) in own.seen {
@@ -255,7 +280,27 @@ fn of_product(
         }
     }
     thrice(&letters, problems);
+    summed(&mut letters, span, names, problems);
     letters
+}
+
+/// Counts the letters that are summed over here, and refuses sums that are too long to be written out.
+fn summed(letters: &mut Letters, span: Span, names: &dyn Names, problems: &mut Vec<Diagnostic>) {
+    let own = letters.seen.values().filter(|(count, _)| *count == 2);
+    letters.sums = letters.sums.saturating_add(own.count() as u32);
+    let d = names.dimensions();
+    if d.saturating_pow(letters.sums) > MOST_TERMS {
+        letters.seen.clear();
+        let message = format!(
+            "the sum over {} indices has more than {MOST_TERMS} terms in {d} dimensions",
+            letters.sums
+        );
+        letters.sums = 0;
+        problems.push(
+            Diagnostic::error("too-many-terms", span, message)
+                .hint("a product of sums is written shorter: (u_i u_i)^2"),
+        );
+    }
 }
 
 fn thrice(letters: &Letters, problems: &mut Vec<Diagnostic>) {
@@ -289,7 +334,7 @@ fn told(letters: &[char]) -> String {
 }
 
 fn mismatch(span: Span, own: &[char], wanted: &[char]) -> Diagnostic {
-    let message = format!("this has {}, and {} is needed", told(own), told(wanted));
+    let message = format!("this has {}, and it needs {}", told(own), told(wanted));
     let diagnostic = Diagnostic::error("index-mismatch", span, message);
     let extra: Vec<char> = own
         .iter()

@@ -78,8 +78,14 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         source: tables.source,
         span: Span::new(0, text.len().min(1)),
     };
-    let problem = tables.table.and_then(|table| reader.problem(&table, place));
-    reader.unused_overrides();
+    let problem = match tables.table {
+        Some(table) => {
+            let problem = reader.problem(&table, place);
+            reader.unused_overrides();
+            problem
+        }
+        None => None,
+    };
     let mut diagnostics = Diagnostics {
         sources: reader.sources,
         list: Vec::new(),

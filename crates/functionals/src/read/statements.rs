@@ -114,12 +114,41 @@ impl Reader<'_> {
                 break;
             }
         }
-        for (_, value, _) in pending {
+        self.undefined(scope, &pending);
+        found
+    }
+
+    /// Definitions in which names stay unknown: those of each other, or of nothing.
+    fn undefined(&mut self, scope: &Scope, pending: &[(Text, Text, String)]) {
+        let heads: Vec<&str> = (pending.iter())
+            .map(|(key, ..)| {
+                key.content
+                    .rsplit_once('_')
+                    .map_or(key.content.as_str(), |own| own.0)
+            })
+            .collect();
+        let is_head = |name: &str| heads.contains(&name);
+        for (key, value, _) in pending {
             let mut problems = Vec::new();
             parse(&value.content, scope, &mut problems);
-            self.add(&value, &problems);
+            let unknown = problems.iter().filter(|d| d.code == "unknown-name");
+            let names = unknown.filter_map(|d| value.content.get(d.span.start..d.span.end));
+            let of_others =
+                |written: &str| is_head(written.split(['_', ',', '(']).next().unwrap_or(""));
+            if names.clone().count() > 0 && names.clone().all(of_others) {
+                let message = format!(
+                    "`{}` is defined by itself, or by definitions that use it",
+                    key.content
+                );
+                self.push(
+                    Diagnostic::error("recursive-definition", value.place, message).hint(
+                        "a definition is an abbreviation: what it uses is defined without it",
+                    ),
+                );
+            } else {
+                self.add(value, &problems);
+            }
         }
-        found
     }
 
     fn definition(&mut self, scope: &mut Scope, key: &Text, value: &Text) {

@@ -116,6 +116,22 @@ fn e3_an_energy_that_is_not_quadratic() {
         let problem = read_text(row, &text, &[("d", "1")]).problem;
         assert!(problem.is_some(), "{row}");
     }
+    // Sums over all components are conjugates too: asinh undoes sinh wherever a stress is that of a strain.
+    let text = row_text("p3p1").replace("energy-abstract", "energy-cosh");
+    let study = studied_text("p3p1", &text, &[("d", "2")]);
+    let conjugate = study
+        .verdicts
+        .iter()
+        .filter(|d| d.claim == "functional.legendre");
+    assert!(conjugate.clone().count() == 2);
+    for own in conjugate {
+        assert_eq!(
+            own.finding.verdict.word(),
+            "proved",
+            "{}",
+            own.finding.verdict.detail()
+        );
+    }
     let own = bar("p3p1", "energy-cosh");
     assert!(is_euler(&own, "e_11", "sinh(e_11) - s_11"));
     let own = bar("p3p0", "energy-cosh");

@@ -182,6 +182,24 @@ fn mistakes_in_a_text_are_shown_with_what_to_do() {
         ),
         (
             "D_ij s_ij - F_k",
+            "D_ij s_ij/0 - F_k",
+            "division-by-zero",
+            "division by zero",
+        ),
+        (
+            "D_ij s_ij - F_k",
+            "u_a u_a u_b u_b u_c u_c u_f u_f u_g u_g u_h u_h u_i u_i u_j u_j u_l u_l u_m u_m u_o u_o u_p u_p u_q u_q u_r u_r u_v u_v u_w u_w u_z u_z - F_k",
+            "too-many-terms",
+            "the sum over 17 indices",
+        ),
+        (
+            "[boundary]\n",
+            "[define]\nG_ij = \"H_ij\"\nH_ij = \"2 G_ij\"\n[boundary]\n",
+            "recursive-definition",
+            "is defined by itself, or by definitions that use it",
+        ),
+        (
+            "D_ij s_ij - F_k",
             "D_i4 s_i4 - F_k",
             "index-out-of-range",
             "the space has 2 dimensions",
