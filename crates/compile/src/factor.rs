@@ -8,7 +8,7 @@ use crate::evaluate::PivotRange;
 use crate::lanes::Word;
 use crate::program::Factorization;
 
-/// A pivot below this, times size · ε, times its scale, counts as zero.
+/// A pivot below this, times size · ε, times its uncertainty, counts as zero.
 const SAFETY: f64 = 10.0;
 
 /// Pivots of L U whose ratio is above this need no closer look: rounding leaves pivots near ε.
@@ -147,27 +147,22 @@ impl<W: Word> Factored<W> {
         self.ranges[l] = range(lane.pivots.iter().copied());
     }
 
-    /// The fault of L U in state l. A pivot counts as zero relative to the largest entry of its row and column of
-    /// the matrix given, after rows are scaled to one, so that units of rows and columns do not matter.
+    /// The fault of L U in state l: a pivot that may be zero for a matrix which rounding does not tell from the one given
+    /// ([`uncertainty`]), whatever the units of rows and columns are.
     fn fault(&self, l: usize) -> Option<Fault> {
         let PivotRange { smallest, largest } = self.ranges[l];
         if smallest > UNSUSPICIOUS * largest && largest.is_finite() {
             return None;
         }
         let n = self.size;
-        let entry = |i: usize, j: usize| self.given[i * n + j].lane(l).abs();
         if (0..n * n).any(|i| !self.given[i].lane(l).is_finite()) {
             return Some(Fault::NotFinite);
         }
-        let row_scale = |i: usize| (0..n).map(|j| entry(i, j)).fold(0.0, f64::max);
+        let factor = |i: usize, j: usize| self.factors[i * n + j].lane(l);
+        let pivot = |k: usize| self.pivots[k].lane(l);
         for k in 0..n {
-            let value = self.pivots[k].lane(l);
-            let row = self.rows[k * W::LANES + l] as usize;
-            let column_scale = (0..n)
-                .filter(|&i| entry(i, k) > 0.0)
-                .map(|i| entry(i, k) / row_scale(i))
-                .fold(0.0, f64::max);
-            let threshold = SAFETY * n as f64 * f64::EPSILON * row_scale(row) * column_scale;
+            let value = pivot(k);
+            let threshold = SAFETY * n as f64 * f64::EPSILON * uncertainty(k, factor, pivot);
             if value.abs() <= threshold {
                 return Some(Fault::Singular {
                     pivot: k,
@@ -219,6 +214,33 @@ impl<W: Word> Factored<W> {
             rest[i].update(&row[0], &row[0], |x, reciprocal, _| x * reciprocal);
         }
     }
+}
+
+/// By how many units of rounding pivot k of L U is uncertain, to first order: L U belongs to a matrix that differs from the one given
+/// by at most |L| |U| in each entry, in such units (Higham 2002, theorem 9.3), and an entry (i, j) moves the pivot by its product with
+/// −A₂₁ A₁₁⁻¹ and −A₁₁⁻¹ A₁₂, which the factors give. A matrix with other units of rows and columns has the same quotient of
+/// this and the pivot: largest entries of rows and columns would not do, as [[c, 0, b], [0, c, b], [b, b, 0]] with small c is well
+/// determined, and c small beside b only by the units of the third row and column.
+pub(crate) fn uncertainty(
+    k: usize,
+    factor: impl Fn(usize, usize) -> f64,
+    pivot: impl Fn(usize) -> f64,
+) -> f64 {
+    let (mut by_row, mut by_column) = (vec![0.0; k + 1], vec![0.0; k + 1]);
+    (by_row[k], by_column[k]) = (1.0, 1.0);
+    for j in (0..k).rev() {
+        let below = (j + 1..=k).map(|i| by_row[i] * factor(i, j));
+        by_row[j] = -below.sum::<f64>();
+        let right = (j + 1..=k).map(|i| factor(j, i) * by_column[i]);
+        by_column[j] = -right.sum::<f64>() / pivot(j);
+    }
+    let term = |m: usize| -> f64 {
+        let lower = (m + 1..=k).map(|i| (by_row[i] * factor(i, m)).abs());
+        let upper = (m + 1..=k).map(|j| (factor(m, j) * by_column[j]).abs());
+        let own = (pivot(m) * by_column[m]).abs();
+        (by_row[m].abs() + lower.sum::<f64>()) * (own + upper.sum::<f64>())
+    };
+    (0..=k).map(term).sum()
 }
 
 pub(crate) fn range(pivots: impl Iterator<Item = f64>) -> PivotRange {

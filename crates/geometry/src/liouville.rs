@@ -10,6 +10,7 @@ mod involution;
 mod kept;
 mod turns;
 
+use crate::integrability::on_its_own;
 use crate::measure::{at_stated_values, measure};
 use crate::noether::cyclic::cyclic;
 use crate::noether::embedded::Embedded;
@@ -18,6 +19,7 @@ use crate::noether::motion::Motion;
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::prover::is_stated;
 use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::matrix::inverse;
@@ -240,10 +242,14 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     if !is_open || cx.is_out_of_time() || !says_more_as_stated(cx) {
         return Ok(general);
     }
-    let Some((texts, Ok(valued))) = at_stated_values(cx, counted_for_all) else {
-        return Ok(general);
+    let (texts, valued) = match at_a_condition(cx) {
+        Some(found) => found,
+        None => match at_stated_values(cx, counted_for_all) {
+            Some((texts, Ok(valued))) => (texts, valued),
+            _ => return Ok(general),
+        },
     };
-    let as_stated = format!("for {texts}, as the model states them, ");
+    let as_stated = format!("for {texts}, as the model states, ");
     let otherwise = format!("for arbitrary values {}", general.detail());
     Ok(match valued {
         Verdict::Proved(mut proof) | Verdict::Conditional { mut proof, .. } => {
@@ -258,13 +264,37 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     })
 }
 
+/// The count for all parameters that satisfy one condition for which more integrals were found, as A = B, where the values that the model
+/// states satisfy it and the integrals suffice: this says more than a count for these values.
+fn at_a_condition(cx: &Context<'_>) -> Option<(String, Verdict)> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let values = system.parameter_values();
+    let found = found(cx);
+    let special = &found.as_ref().as_ref().ok()?.special.found;
+    let mut conditions: Vec<Vec<(Expr, Expr)>> = Vec::new();
+    for own in special.iter().map(|special| special.tie.pairs(g)) {
+        let holds = own.iter().all(|pair| is_stated(g, &values, pair));
+        if holds && !conditions.contains(&own) {
+            conditions.push(own);
+        }
+    }
+    conditions.into_iter().find_map(|pairs| {
+        let own = system.with_parameters(&pairs)?;
+        let verdict = on_its_own(cx, &own, counted_for_all)?.ok()?;
+        let texts = pairs.iter();
+        let texts = texts.map(|&(p, value)| format!("{} = {}", g.text(p), g.text(value)));
+        let texts = texts.collect::<Vec<String>>().join(" and ");
+        matches!(verdict, Verdict::Proved(_)).then_some((texts, verdict))
+    })
+}
+
 /// Whether an integral or a measure was found that only the values of parameters that the model states have.
 fn says_more_as_stated(cx: &Context<'_>) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
     let measure = measure(cx);
     let by_measure = measure.as_ref().as_ref().is_ok_and(|m| m.as_stated);
     let values = system.parameter_values();
-    let is_so = |&(a, b): &(Expr, Expr)| g.is_zero(g.substitute(g.sub(a, b), &values));
+    let is_so = |pair: &(Expr, Expr)| is_stated(g, &values, pair);
     let more = |found: &Found| {
         let mut all = found.special.found.iter();
         all.any(|special| special.tie.pairs(g).iter().all(is_so))

@@ -2,7 +2,7 @@
 //! the numbers that it states for others are exceptional this is noticed.
 
 use crate::integrability::on_its_own;
-use chetaev_mechanics::prover::those_that_matter;
+use chetaev_mechanics::prover::conditions_that_matter;
 use chetaev_mechanics::{Context, Finding};
 use chetaev_symbolic::{Expr, Graph, Verdict};
 
@@ -56,7 +56,7 @@ pub(crate) fn notice(
     };
     let values = system.values_in_constraints();
     if differs(&values) {
-        let own = those_that_matter(&values, differs);
+        let own = conditions_that_matter(&system.graph, &values, |_| Vec::new(), differs);
         cx.prover.exceptional.add_stated(own);
     }
 }

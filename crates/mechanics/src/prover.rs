@@ -19,12 +19,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug, Default)]
 pub struct Exceptional(Arc<Mutex<Noticed>>);
 
-/// What was noticed: parameters whose stated values are exceptional, and other values of these that may be.
+/// What was noticed: how the stated values of parameters are exceptional, and what else may be.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Noticed {
-    /// The parameters whose stated values are exceptional together.
-    pub stated: BTreeSet<Expr>,
-    /// (Parameter, value), at which what vanishes at the stated value vanishes too.
+    /// (Parameter, what it is) for the values stated: a number, or a function of others such as b for a = b.
+    pub stated: BTreeSet<(Expr, Expr)>,
+    /// (Parameter, what it is), where what vanishes for the values stated vanishes too.
     pub others: BTreeSet<(Expr, Expr)>,
 }
 
@@ -47,9 +47,9 @@ impl Exceptional {
         self.lock().extend(noticed);
     }
 
-    /// Notices that the stated values of parameters are exceptional.
-    pub fn add_stated(&self, parameters: impl IntoIterator<Item = Expr>) {
-        self.lock().stated.extend(parameters);
+    /// Notices how the stated values of parameters are exceptional.
+    pub fn add_stated(&self, conditions: impl IntoIterator<Item = (Expr, Expr)>) {
+        self.lock().stated.extend(conditions);
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Noticed> {
@@ -230,10 +230,12 @@ impl Prover {
             Verdict::Proved(_) | Verdict::Numerical(_) => {
                 let is_as_before =
                     |values: &[(Expr, Expr)]| !matches!(at(values), Verdict::Refuted(_));
-                let stated = those_that_matter(values, is_as_before);
-                if let &[parameter] = stated.as_slice() {
-                    let others = common_zeros(system, residuals, manifold, parameter);
-                    self.exceptional.lock().others.extend(others);
+                let zeros = |own: &[Expr]| common_zeros(system, residuals, manifold, own);
+                let stated = conditions_that_matter(g, values, zeros, is_as_before);
+                if let &[(parameter, value)] = stated.as_slice() {
+                    let symbols = g.symbols_in(&[parameter, value]);
+                    let own: Vec<Expr> = symbols.into_iter().map(|s| g.symbol_expr(s)).collect();
+                    self.exceptional.lock().others.extend(zeros(&own));
                 }
                 self.exceptional.add_stated(stated);
             }
@@ -305,8 +307,18 @@ impl Prover {
             own.is_ok_and(|own| (own.minimum, own.maximum) != (found.minimum, found.maximum))
         };
         if !values.is_empty() && falls(&values) {
+            let pivots = &found.pivots;
+            let zeros = |own: &[Expr]| {
+                let row = |&i: &usize| pivots.columns.iter().map(|&j| matrix[i][j]).collect();
+                let minor: Vec<Vec<Expr>> = pivots.rows.iter().map(row).collect();
+                match minor.len() {
+                    0 => Vec::new(),
+                    size if size > LARGEST_DETERMINANT => Vec::new(),
+                    _ => common_zeros(system, &[determinant(g, &minor)], manifold, own),
+                }
+            };
             self.exceptional
-                .add_stated(those_that_matter(&values, falls));
+                .add_stated(conditions_that_matter(g, &values, zeros, falls));
         }
         Ok(found)
     }
@@ -506,11 +518,15 @@ fn stated_among(system: &System, es: &[Expr]) -> Vec<(Expr, Expr)> {
     values
 }
 
-/// Of the values at which something is so those parameters without whose values it is not.
-pub fn those_that_matter(
+/// Of the values at which something is so those without which it is not; where they are several, the condition on parameters in their
+/// place for which it is so already, if one is found: a = b where 2 is stated for both. Tried are the `candidates` for the parameters that
+/// matter, and for two of them the ratio of their values.
+pub fn conditions_that_matter(
+    g: &Graph,
     values: &[(Expr, Expr)],
+    candidates: impl Fn(&[Expr]) -> Vec<(Expr, Expr)>,
     is_so: impl Fn(&[(Expr, Expr)]) -> bool,
-) -> Vec<Expr> {
+) -> Vec<(Expr, Expr)> {
     let mut own = values.to_vec();
     for pair in values {
         let fewer: Vec<(Expr, Expr)> = own.iter().copied().filter(|other| other != pair).collect();
@@ -518,16 +534,35 @@ pub fn those_that_matter(
             own = fewer;
         }
     }
-    own.into_iter().map(|(parameter, _)| parameter).collect()
+    if own.len() < 2 {
+        return own;
+    }
+    let parameters: Vec<Expr> = own.iter().map(|&(parameter, _)| parameter).collect();
+    let mut all = candidates(&parameters);
+    match own.as_slice() {
+        &[(a, of_a), (b, of_b)] if !g.is_zero(of_b) => {
+            all.push((a, g.mul(&[g.div(of_a, of_b), b])));
+        }
+        _ => {}
+    }
+    let holds = |pair: &&(Expr, Expr)| is_stated(g, values, pair);
+    let found = all.iter().filter(holds).find(|pair| is_so(&[**pair]));
+    found.map_or(own, |pair| vec![*pair])
 }
 
-/// Values of a parameter at which all functions vanish whatever else has which value, as 0, 1 and −1 for k (k² − 1) x y; rational ones that
-/// a factor of first degree shows.
+/// Whether a condition on parameters holds for the values stated.
+pub fn is_stated(g: &Graph, values: &[(Expr, Expr)], &(parameter, value): &(Expr, Expr)) -> bool {
+    let difference = g.substitute(g.sub(parameter, value), values);
+    g.is_zero(difference)
+}
+
+/// Conditions (parameter, what it is) for which all functions vanish whatever else has which value, as k = 0, 1 and −1 for (k² − 1) k x y
+/// and a = b for (a − b) x: the common factors that contain these parameters alone, where they are of first degree in one.
 fn common_zeros(
     system: &System,
     residuals: &[Expr],
     manifold: &Manifold,
-    parameter: Expr,
+    parameters: &[Expr],
 ) -> Vec<(Expr, Expr)> {
     let g = &system.graph;
     let solved: Vec<(Expr, Expr)> = manifold
@@ -535,30 +570,30 @@ fn common_zeros(
         .iter()
         .map(|&(s, e)| (g.symbol_expr(s), e))
         .collect();
-    let Some(symbol) = g.as_symbol(parameter) else {
-        return Vec::new();
-    };
-    let zeros = |e: Expr| -> Option<BTreeSet<Expr>> {
+    let symbols: Vec<Symbol> = parameters.iter().filter_map(|&p| g.as_symbol(p)).collect();
+    let is_own = |f: &Expr| g.symbols_in(&[*f]).iter().all(|s| symbols.contains(s));
+    let factors = |e: Expr| -> Option<BTreeSet<Expr>> {
         // What is solved for may occur in what others are solved by.
         let e = solved.iter().fold(e, |e, _| g.substitute(e, &solved));
-        let list = irreducible_factors(g, e, &[symbol])?.into_iter();
-        let alone = list.filter(|(f, _)| g.symbols_in(&[*f]) == [symbol]);
-        let values = alone.filter_map(|(f, _)| {
-            let slope = g.diff(f, symbol);
-            let at_zero = g.substitute(f, &[(parameter, g.zero())]);
+        let list = irreducible_factors(g, e, &symbols)?.into_iter();
+        Some(list.map(|(f, _)| f).filter(is_own).collect())
+    };
+    let zero = |factor: Expr| -> Option<(Expr, Expr)> {
+        symbols.iter().find_map(|&symbol| {
+            let parameter = g.symbol_expr(symbol);
+            let slope = g.diff(factor, symbol);
+            let rest = g.substitute(factor, &[(parameter, g.zero())]);
             g.as_number(slope)?;
-            let value = g.neg(g.div(at_zero, slope));
-            g.as_number(value).map(|_| value)
-        });
-        Some(values.collect())
+            Some((parameter, g.neg(g.div(rest, slope))))
+        })
     };
     let nonzero = residuals.iter().filter(|&&e| !g.is_zero(e));
-    let all = nonzero.map(|&e| zeros(e).unwrap_or_default());
+    let all = nonzero.map(|&e| factors(e).unwrap_or_default());
     let common = all.reduce(|a, b| a.intersection(&b).copied().collect());
     common
         .unwrap_or_default()
         .into_iter()
-        .map(|value| (parameter, value))
+        .filter_map(zero)
         .collect()
 }
 

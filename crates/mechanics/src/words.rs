@@ -2,6 +2,29 @@
 
 use chetaev_symbolic::verdict::Counterexample;
 
+/// A number as a person writes it, to six digits: `0.25`, `1.76e11`.
+pub fn number(x: f64) -> String {
+    significant(x, 6)
+}
+
+/// A number to nine digits, where six would not tell two events apart.
+pub fn precise_number(x: f64) -> String {
+    significant(x, 9)
+}
+
+fn significant(x: f64, digits: usize) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let places = digits - 1;
+    let rounded = format!("{x:.places$e}").parse::<f64>().unwrap_or(x);
+    if (1e-4..1e6).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
 /// "x = 1, y' in [0.5, 0.6]": the data of a counterexample whose names are relevant.
 pub fn point(found: &Counterexample, is_relevant: impl Fn(&str) -> bool) -> String {
     let values: Vec<String> = found

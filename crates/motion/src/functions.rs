@@ -137,9 +137,14 @@ impl Functions {
 
     /// Evaluates at `inputs`.
     fn compute(&mut self) -> Result<(), EvaluationFailure> {
-        self.backend
-            .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
-            .map_err(failure)?;
+        let found = self
+            .backend
+            .evaluate(&self.inputs, &mut self.workspace, &mut self.computed);
+        if let Err(problem) = found {
+            // Those of an earlier state are not of this one.
+            self.outputs.fill(f64::NAN);
+            return Err(failure(problem));
+        }
         let mut trace = 0.0;
         for (&place, &value) in self.places.iter().zip(&self.computed) {
             self.outputs[place] = value;

@@ -2,6 +2,7 @@
 
 use crate::study::Motion;
 use chetaev_geometry::noether::search::Integral;
+use chetaev_mechanics::words;
 use chetaev_motion::keep::KeptReport;
 use chetaev_symbolic::{Expr, Graph};
 
@@ -51,8 +52,8 @@ impl Kept<'_> {
         match report.moved {
             0 => format!("none of {} steps had to be corrected", report.steps),
             moved => format!(
-                "the state was moved after {moved} of {} steps, by {:.1e} at most, relative to 1 + its size (at t = {:.6})",
-                report.steps, report.largest.value, report.largest.t
+                "the state was moved after {moved} of {} steps, by {:.1e} at most, relative to 1 + its size (at t = {})",
+                report.steps, report.largest.value, words::number(report.largest.t)
             ),
         }
     }

@@ -13,6 +13,7 @@ use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
 use chetaev_mechanics::claims::order::dimension;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::formulation;
+use chetaev_mechanics::words;
 use chetaev_mechanics::Manifold;
 use chetaev_motion::drift::Extreme;
 use chetaev_motion::run::Run;
@@ -104,8 +105,8 @@ fn words_of_drift(
 ) -> String {
     let tolerance = evidence.tolerance;
     format!(
-        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:e}, bound {bound:.1e}{beyond}",
-        drift.value, drift.t
+        "largest drift of {what}: {:.2e} at t = {} over {samples} states, tolerance asked {tolerance:e}, bound {bound:.1e}{beyond}",
+        drift.value, words::number(drift.t)
     )
 }
 
@@ -119,8 +120,8 @@ fn without_value<'a>(
     let has_none = |own: &Followed| own.values[end.clone()].iter().any(|x| !x.is_finite());
     match followed.any(has_none) {
         true => format!(
-            "; without a finite value at the end, t = {:.6}, where the equations become singular",
-            run.t
+            "; without a finite value at the end, t = {}, where the equations become singular",
+            words::number(run.t)
         ),
         false => String::new(),
     }
@@ -431,9 +432,9 @@ fn without_jumps(cx: &Context<'_>, followed: &Followed) -> String {
     let parts = jumps.parts.iter().map(|&e| cx.system.graph.text(e));
     let parts: Vec<String> = parts.collect();
     format!(
-        " between the jumps of {} (the first before t = {:.6})",
+        " between the jumps of {} (the first before t = {})",
         parts.join(" and "),
-        jumps.first
+        words::number(jumps.first)
     )
 }
 
@@ -527,7 +528,10 @@ fn no_value(followed: &Followed, what: &str) -> Option<Verdict> {
         )),
         (true, false) => Some(Verdict::not_applicable(
             "the integral has a value along the motion",
-            format!("{what} has no finite value at t = {:.6}", followed.drift.t),
+            format!(
+                "{what} has no finite value at t = {}",
+                words::number(followed.drift.t)
+            ),
         )),
     }
 }
@@ -716,8 +720,8 @@ fn of_equal_forms(
         None => String::new(),
     };
     let sentence = format!(
-        "`{}` and `{}` are proved to be the same equations, so this is a statement on accuracy: the two computed motions differ by {:.2e} at t = {:.6}, more than the tolerance asked, {:e}, lets expect{whose}; a sharper tolerance brings them together",
-        forms[0], forms[1], gap.value, gap.t, evidence.tolerance
+        "`{}` and `{}` are proved to be the same equations, so this is a statement on accuracy: the two computed motions differ by {:.2e} at t = {}, more than the tolerance asked, {:e}, lets expect{whose}; a sharper tolerance brings them together",
+        forms[0], forms[1], gap.value, words::number(gap.t), evidence.tolerance
     );
     Some(Verdict::Numerical(Evidence {
         samples: evidence.run.len() as u32,
@@ -793,11 +797,12 @@ impl Claim for MethodOrder {
 
 fn order_verdict(orders: &Orders) -> Verdict {
     let (from, to) = orders.stretch;
-    let place = format!("from t = {from:.6} to {to:.6}");
+    let place = format!("from t = {} to {}", words::number(from), words::number(to));
     let at_corner = orders.corner.as_ref().map_or(String::new(), |corner| {
         format!(
-            "; the equations are not smooth there: {} bends or jumps at t = {:.6}",
-            corner.text, corner.t
+            "; the equations are not smooth there: {} bends or jumps at t = {}",
+            corner.text,
+            words::number(corner.t)
         )
     });
     let Some(observed) = orders.observed else {

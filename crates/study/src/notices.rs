@@ -8,6 +8,7 @@ use crate::witness::{determinant, gram, zeros};
 use chetaev_integrate::Note;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::redundancy::Reactions;
+use chetaev_mechanics::words;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::{MassLaw, Model};
@@ -343,8 +344,9 @@ pub(crate) fn left_assumptions(
         .filter_map(|(assumption, values)| {
             let j = values.iter().position(|&d| !holds(assumption.relation, d))?;
             Some(format!(
-                "the motion leaves the assumption `{}` at t = {:.6}: what is proved under it says nothing of the motion from there on",
-                assumption.text, run.times[j]
+                "the motion leaves the assumption `{}` at t = {}: what is proved under it says nothing of the motion from there on",
+                assumption.text,
+                words::number(run.times[j])
             ))
         })
         .collect()
@@ -434,7 +436,7 @@ pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) 
 /// Places at which the motion went on along the one branch that contains its velocity.
 fn crossings(crossings: &[Crossing]) -> Option<String> {
     let shown = crossings.iter().take(MOST_TIMES);
-    let shown: Vec<String> = shown.map(|crossing| format!("{:.6}", crossing.t)).collect();
+    let shown: Vec<String> = shown.map(|crossing| words::number(crossing.t)).collect();
     let more = if crossings.len() > MOST_TIMES {
         format!(", … ({} times)", crossings.len())
     } else {

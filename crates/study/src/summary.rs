@@ -5,6 +5,7 @@ use crate::page::independent;
 use crate::plain;
 use crate::record::zero_word;
 use crate::study::{Decided, Motion, Study};
+use chetaev_mechanics::words;
 use chetaev_mechanics::Group;
 use std::fmt::Write as _;
 
@@ -162,7 +163,13 @@ fn events(text: &mut String, motion: &Motion) {
         let met: Vec<_> = run.events.iter().filter(|e| e.event == number).collect();
         let shown = met.iter().take(SHOWN);
         let mut places: Vec<String> = shown
-            .map(|met| format!("{} at t = {:.9}", zero_word(met.kind), met.t))
+            .map(|met| {
+                format!(
+                    "{} at t = {}",
+                    zero_word(met.kind),
+                    words::precise_number(met.t)
+                )
+            })
             .collect();
         if met.len() > SHOWN {
             places.push(format!("… {} in all", met.len()));

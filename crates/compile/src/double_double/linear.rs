@@ -2,11 +2,11 @@
 //! partial pivoting, as `factor` has them for doubles.
 
 use crate::evaluate::EvaluateFailure;
-use crate::factor::range;
+use crate::factor::{range, uncertainty};
 use crate::program::Factorization;
 use chetaev_double_double::DoubleDouble;
 
-/// A pivot below this, times size · ε, times its scale, counts as zero.
+/// A pivot below this, times size · ε, times its uncertainty, counts as zero.
 const SAFETY: f64 = 10.0;
 
 /// A factorized matrix: L below the diagonal, the pivots on it, U above it.
@@ -47,7 +47,7 @@ impl Factors {
             self.reset(entries);
         }
         self.eliminate(true);
-        self.check(entries, matrix)
+        self.check(matrix)
     }
 
     fn reset(&mut self, entries: &[DoubleDouble]) {
@@ -107,19 +107,13 @@ impl Factors {
         are_positive && found.largest.is_finite() && found.smallest > threshold
     }
 
-    /// Pivots count as zero relative to the largest entry of their row and column of the matrix given, after rows are scaled to
-    /// one, so that units of rows and columns do not matter.
-    fn check(&self, given: &[DoubleDouble], matrix: usize) -> Result<(), EvaluateFailure> {
+    /// A pivot counts as zero that rounding does not tell from zero.
+    fn check(&self, matrix: usize) -> Result<(), EvaluateFailure> {
         let n = self.size;
-        let entry = |i: usize, j: usize| given[i * n + j].high().abs();
-        let row_scale = |i: usize| (0..n).map(|j| entry(i, j)).fold(0.0, f64::max);
+        let factor = |i: usize, j: usize| self.factors[i * n + j].high();
         for (k, value) in self.pivots().enumerate() {
-            let column = (0..n).filter(|&i| entry(i, k) > 0.0);
-            let column_scale = column
-                .map(|i| entry(i, k) / row_scale(i))
-                .fold(0.0, f64::max);
             let unit = SAFETY * n as f64 * DoubleDouble::EPSILON;
-            let threshold = unit * row_scale(self.rows[k]) * column_scale;
+            let threshold = unit * uncertainty(k, factor, |m| factor(m, m));
             if value.abs() <= threshold {
                 let found = range(self.pivots());
                 return Err(EvaluateFailure::Singular {

@@ -272,16 +272,3 @@ fn number(point: &PointValue) -> Option<f64> {
     let (low, high) = point.enclosure.as_ref()?;
     Some((low.parse::<f64>().ok()? + high.parse::<f64>().ok()?) / 2.0)
 }
-
-/// A number as a person writes it, to six digits.
-pub fn written(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    let rounded = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
-    if (1e-4..1e6).contains(&rounded.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
-}

@@ -5,11 +5,12 @@
 //! whether nothing else does.
 
 use super::formulation::{derive, REFERENCE};
-use super::on_set::{self, constraint_set, vanish, written, State};
+use super::on_set::{self, constraint_set, vanish, State};
 use super::{Claim, Context, Finding, Formula, Group};
 use crate::equations::Equations;
 use crate::system::{StatedEquations, System};
 use crate::words::counted;
+use crate::words::number;
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::matrix::null_space;
 use chetaev_symbolic::simplify::{length, simplify, Options};
@@ -465,8 +466,8 @@ impl<'a, 'c> Question<'a, 'c> {
                         format!(
                             "{0}'' = {1}, and the motion has {0}'' = {2}",
                             c.name,
-                            written(*a),
-                            written(*b)
+                            number(*a),
+                            number(*b)
                         )
                     })
                     .collect();

@@ -14,6 +14,7 @@ use crate::prover::Prover;
 use crate::system::System;
 use chetaev_symbolic::verdict::Part;
 use chetaev_symbolic::{Expr, Graph, Verdict};
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// At most so many sets of exceptional values are looked at in a study: each derives the terms of a system anew.
@@ -325,8 +326,7 @@ impl<'a> Strata<'a> {
         if noticed.stated.is_empty() || !claim.is_asked_of_values() {
             return general;
         }
-        let mut values = there.system.parameter_values();
-        values.retain(|(parameter, _)| noticed.stated.contains(parameter));
+        let values = together(there.system, &noticed.stated);
         let Some(exception) = self.exception(place, &values) else {
             return general;
         };
@@ -336,7 +336,7 @@ impl<'a> Strata<'a> {
         }
         let g = &there.system.graph;
         let equal = equations(g, &values);
-        let mut elsewhere = vec![related(g, &values, " ≠ ", " or ")];
+        let mut elsewhere = vec![unlike(g, &values)];
         let mut parts = vec![(format!("for {equal}, as the model states"), equal, stated)];
         // Other values at which the general verdict does not hold.
         let others = noticed.others.iter().filter(|pair| !values.contains(pair));
@@ -348,7 +348,7 @@ impl<'a> Strata<'a> {
             if own.verdict.word() != general.verdict.word() && !is_open(&own.verdict) {
                 let equal = equations(g, &[*pair]);
                 parts.push((format!("for {equal}"), equal, own));
-                elsewhere.push(related(g, &[*pair], " ≠ ", " or "));
+                elsewhere.push(unlike(g, &[*pair]));
             }
         }
         let place = "for general values of the parameters";
@@ -434,6 +434,35 @@ fn is_open(verdict: &Verdict) -> bool {
         verdict,
         Verdict::Undecided { .. } | Verdict::NotApplicable { .. }
     )
+}
+
+/// The conditions under which values are exceptional, put in together: each parameter is given once, by what is not given itself; the
+/// values stated where the conditions do not show this.
+fn together(system: &System, stated: &BTreeSet<(Expr, Expr)>) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let given: BTreeSet<Expr> = stated.iter().map(|&(parameter, _)| parameter).collect();
+    let is_free =
+        |&(_, value): &(Expr, Expr)| given.iter().all(|&p| !g.reachable(&[value]).contains(&p));
+    if given.len() == stated.len() && stated.iter().all(is_free) {
+        return stated.iter().copied().collect();
+    }
+    let all: Vec<Expr> = stated.iter().flat_map(|&(p, value)| [p, value]).collect();
+    let occurring = g.reachable(&all);
+    let mut values = system.parameter_values();
+    values.retain(|(parameter, _)| occurring.contains(parameter));
+    values
+}
+
+/// Where a condition on parameters does not hold. Several values are exceptional together by a relation that is not known: of what else
+/// satisfies it nothing is said.
+fn unlike(g: &Graph, values: &[(Expr, Expr)]) -> String {
+    match values {
+        [_] => related(g, values, " ≠ ", " or "),
+        _ => format!(
+            "the parameters have general values, not {}",
+            equations(g, values)
+        ),
+    }
 }
 
 /// `k = 1 and b = 2`.

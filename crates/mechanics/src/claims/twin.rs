@@ -9,12 +9,13 @@
 )]
 
 use super::formulation::{derive, REFERENCE};
-use super::on_set::{constraint_set, hold, written, State};
+use super::on_set::{constraint_set, hold, State};
 use super::{Claim, Context, Finding, Group, Prepared};
 use crate::constraint::ConstraintKind;
 use crate::equations::Equations;
 use crate::system::{System, Twin};
 use crate::terms::MotionTerms;
+use crate::words::number;
 use crate::Selection;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -323,8 +324,8 @@ impl<'a> Image<'a> {
                 .map(|(name, (a, b))| {
                     format!(
                         "there the other model has {name}'' = {}, and this one {}",
-                        written(*a),
-                        written(*b)
+                        number(*a),
+                        number(*b)
                     )
                 })
                 .collect();

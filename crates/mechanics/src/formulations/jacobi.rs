@@ -151,13 +151,26 @@ impl Path {
 
     /// d/dτ on the jet.
     fn derive(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
-        let g = &system.graph;
+        let rate = self.in_arc_length(system, &[self.metric]);
+        let further = self.length_rate(system, rate[0]);
+        self.derive_with(system, es, further)
+    }
+
+    /// The same where F, and with it S, keeps its value.
+    fn in_arc_length(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        self.derive_with(system, es, None)
+    }
+
+    fn derive_with(
+        &self,
+        system: &System,
+        es: &[Expr],
+        length_rate: Option<(Symbol, Expr)>,
+    ) -> Vec<Expr> {
         let directions: Vec<Expr> = self.rates.iter().map(|w| w.value).collect();
-        let mut rates: Vec<(Symbol, Expr)> =
-            self.rates.iter().map(|w| (w.symbol, w.second)).collect();
-        let moved = derive_along(system, &[self.metric], &directions, g.zero(), &rates);
-        rates.extend(self.length_rate(system, moved[0]));
-        derive_along(system, es, &directions, g.zero(), &rates)
+        let own = self.rates.iter().map(|w| (w.symbol, w.second));
+        let rates: Vec<(Symbol, Expr)> = own.chain(length_rate).collect();
+        derive_along(system, es, &directions, system.graph.zero(), &rates)
     }
 
     /// `S' = F'/S`.
@@ -203,7 +216,10 @@ impl Path {
 
     /// Left sides with S as a symbol.
     fn left_sides(&self, system: &System) -> Vec<Expr> {
-        let moved = self.derive(system, &self.momenta(system));
+        self.less_slopes(system, self.derive(system, &self.momenta(system)))
+    }
+
+    fn less_slopes(&self, system: &System, moved: Vec<Expr>) -> Vec<Expr> {
         let pairs = moved.into_iter().zip(self.slopes(system));
         pairs
             .map(|(moved, slope)| system.graph.sub(moved, slope))
@@ -221,7 +237,10 @@ impl Path {
     fn solve(&self, system: &System) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
         let g = &system.graph;
         let in_arc_length = [(self.length, g.one())];
-        let mut equations = g.substitute_all(&self.left_sides(system), &in_arc_length);
+        // F' = 0 is an equation of the system, and without it the matrix of q'' is that of the masses, which is regular by itself.
+        let moved = self.in_arc_length(system, &self.momenta(system));
+        let left = self.less_slopes(system, moved);
+        let mut equations = g.substitute_all(&left, &in_arc_length);
         equations.extend(self.derive(system, &[self.metric]));
         equations.extend(self.derive(system, &self.constraints));
         let symbols: Vec<Symbol> = self.rates.iter().map(|w| w.second_symbol).collect();

@@ -2,6 +2,7 @@
 
 use super::spectrum::{gram, transposed, Spectrum};
 use super::{Crossing, Passage, Path, State, Track, Undetermined};
+use chetaev_mechanics::words;
 
 /// Squares of singular values below this count as zero at the place of a crossing, which is known to about a root of
 /// the rounding.
@@ -168,9 +169,9 @@ impl Track {
             .map(|c| format!("`{c}`"))
             .collect();
         format!(
-            "the rank of the constraints {} falls at t = {:.9}, where branches of the constraint set meet: {why}; the motion beyond is not determined",
+            "the rank of the constraints {} falls at t = {}, where branches of the constraint set meet: {why}; the motion beyond is not determined",
             names.join(", "),
-            at.t
+            words::precise_number(at.t)
         )
     }
 

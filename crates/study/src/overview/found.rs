@@ -33,6 +33,7 @@ impl Found {
 /// All that was found, in the order of a lecture.
 pub fn found(study: &Study) -> Vec<Found> {
     let mut all = Vec::new();
+    all.extend(values(study));
     all.extend(constraints(study));
     all.extend(order(study));
     all.extend(energy(study));
@@ -97,6 +98,21 @@ fn condition(decided: &Decided) -> &str {
         Verdict::Conditional { condition, .. } => condition,
         _ => "",
     }
+}
+
+/// The parameters that the model states to be zero: claims are decided of the system without them, and its equations are printed with them.
+fn values(study: &Study) -> Option<Found> {
+    let g = &study.system.graph;
+    let zeros = study.system.stated_zeros().into_iter();
+    let zeros = zeros.filter(|&(_, value)| g.is_zero(value));
+    let texts: Vec<String> = zeros
+        .map(|(parameter, _)| format!("{} = 0", g.text(parameter)))
+        .collect();
+    let sentence = format!(
+        "all that follows is said for {}, as the model states",
+        texts.join(" and ")
+    );
+    (!texts.is_empty()).then(|| Found::new("parameters", sentence, &[]))
 }
 
 fn constraints(study: &Study) -> Option<Found> {

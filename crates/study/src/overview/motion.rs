@@ -5,6 +5,7 @@ use crate::layout::hanging;
 use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use crate::summary::{bold, Style};
+use chetaev_mechanics::words;
 use chetaev_symbolic::Verdict;
 use std::fmt::Write as _;
 
@@ -98,7 +99,12 @@ fn events(motion: &Motion) -> Vec<String> {
             }
             for (place, met) in met.iter().take(SHOWN).enumerate() {
                 let comma = if place == 0 { "" } else { ", " };
-                let _ = write!(text, "{comma}{} at t = {:.6}", zero_word(met.kind), met.t);
+                let _ = write!(
+                    text,
+                    "{comma}{} at t = {}",
+                    zero_word(met.kind),
+                    words::number(met.t)
+                );
             }
             if met.len() > SHOWN {
                 let _ = write!(text, ", … {} in all", met.len());

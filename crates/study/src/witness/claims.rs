@@ -5,6 +5,7 @@ use super::refined::Refined;
 use super::{evidence, first, kappa, linear, neighbours, refined};
 use crate::motion_claims::of_another_system;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
+use chetaev_mechanics::words;
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::Verdict;
@@ -64,8 +65,9 @@ pub(super) fn numerical(
     Verdict::Numerical(Evidence {
         samples,
         region: format!(
-            "along the computed motion from t = {:.6} to {:.6}",
-            interval.0, interval.1
+            "along the computed motion from t = {} to {}",
+            words::number(interval.0),
+            words::number(interval.1)
         ),
         digits: 16,
         residual,

@@ -5,6 +5,7 @@ use super::evidence;
 use super::samples::{rows, Samples};
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::formulations::kappa_symbols;
+use chetaev_mechanics::words;
 use chetaev_mechanics::Context;
 use chetaev_principles::stationarity::{Closure, Transport};
 use chetaev_symbolic::{Expr, Verdict};
@@ -158,9 +159,9 @@ fn from_start(cx: &Context<'_>, given: Vec<(String, f64)>) -> Result<Kappa, Stri
                 let texts: Vec<String> =
                     given.iter().map(|(n, x)| format!("{n}(0) = {x}")).collect();
                 return Err(format!(
-                    "with {} this motion is no extremal: Σ κ E[f]·δq = {sum:.1e} for a virtual δq at t = {:.6}",
+                    "with {} this motion is no extremal: Σ κ E[f]·δq = {sum:.1e} for a virtual δq at t = {}",
                     texts.join(", "),
-                    samples.times[row]
+                    words::number(samples.times[row])
                 ));
             }
         }

@@ -4,6 +4,7 @@ use super::claims::{elsewhere, numerical, refuted};
 use super::evidence;
 use super::quadratures::{self, Unmet};
 use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group, Scope};
+use chetaev_mechanics::words;
 use chetaev_symbolic::Verdict;
 
 /// β that changes by less over the sizes of its terms is constant.
@@ -94,14 +95,14 @@ fn of(found: &quadratures::Quadratures) -> Verdict {
     let constants: Vec<String> = found
         .constants
         .iter()
-        .map(|(name, value)| format!("{name} = {value:.6}"))
+        .map(|(name, value)| format!("{name} = {}", words::number(*value)))
         .collect();
     let sentence = format!(
-        "∂S/∂α with {} changes by {:.1e} of the sizes of its terms from t = {:.6} to {:.6}",
+        "∂S/∂α with {} changes by {:.1e} of the sizes of its terms from t = {} to {}",
         constants.join(", "),
         found.residual,
-        found.interval.0,
-        found.interval.1
+        words::number(found.interval.0),
+        words::number(found.interval.1)
     );
     match found.residual {
         residual if residual <= CONSTANT => {

@@ -392,10 +392,19 @@ impl<'b> Comparison<'b> {
             .copied()
             .zip(momenta.iter().copied())
             .collect();
-        let size = momenta.iter().fold(1e-300_f64, |m, p| m.max(p.abs()));
+        let sizes = self.sizes();
+        let system = ConstantEquations {
+            slopes: &slopes,
+            residuals: &residuals,
+            free: &free,
+            known: &known,
+            row,
+            sizes: &sizes,
+        };
+        let natural = self.natural(&system);
         let found = [0.0, 1.0, 10.0, 100.0].into_iter().find_map(|guess| {
-            let start = vec![guess; self.integral.constants.len()];
-            self.met((&residuals, &slopes), &free, start, (row, &known), size)
+            let start = natural.iter().map(|size| guess * size).collect();
+            self.met(&system, start)
         });
         let mut constants = found.ok_or("the constants of the motion were not found")?;
         for &(s, value) in &self.integral.motion {
@@ -407,28 +416,69 @@ impl<'b> Comparison<'b> {
         Ok(constants)
     }
 
-    /// Steps of Gauss and Newton from a guess.
-    fn met(
+    /// What the residuals are measured by: the largest values of their momenta along the motion, squared for two roots.
+    fn sizes(&self) -> Vec<f64> {
+        let rows = self.samples.times.len();
+        let of = |i: usize| {
+            let values = (0..rows).map(|row| self.samples.at(1, row)[i].abs());
+            let largest = values.fold(0.0, f64::max);
+            let has_two = |(own, _, [a, b]): &(usize, Symbol, [Expr; 2])| *own == i && a != b;
+            match self.own.iter().any(has_two) {
+                _ if largest == 0.0 => 1.0,
+                true => largest * largest,
+                false => largest,
+            }
+        };
+        (0..self.coordinates.len()).map(of).collect()
+    }
+
+    /// Changes of the constants that move the residuals by about their sizes, where all constants are zero.
+    fn natural(&self, system: &ConstantEquations<'_>) -> Vec<f64> {
+        let zeros = vec![0.0; self.integral.constants.len()];
+        let mut natural = vec![1.0; zeros.len()];
+        if let Some((_, rows)) = self.linearized(system, &zeros) {
+            let lengths = column_lengths(&rows, system.free.len());
+            for (&(j, _), length) in system.free.iter().zip(lengths) {
+                natural[j] = 1.0 / length;
+            }
+        }
+        natural
+    }
+
+    /// The residuals over their sizes and their slopes by the free constants; `None` where they have no value.
+    fn linearized(
         &self,
-        (residuals, slopes): (&[Expr], &[Expr]),
-        free: &[(usize, Symbol)],
-        mut constants: Vec<f64>,
-        (row, known): (usize, &[(Symbol, f64)]),
-        size: f64,
-    ) -> Option<Vec<f64>> {
-        let k = free.len();
+        system: &ConstantEquations<'_>,
+        constants: &[f64],
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let value = self.value(system.row, constants, system.known);
+        let mut left = self.finite(system.residuals, &value).ok()?;
+        let mut rows = self.finite(system.slopes, &value).ok()?;
+        let width = system.free.len().max(1);
+        for ((x, row), size) in left
+            .iter_mut()
+            .zip(rows.chunks_mut(width))
+            .zip(system.sizes)
+        {
+            *x /= size;
+            row.iter_mut().for_each(|slope| *slope /= size);
+        }
+        Some((left, rows))
+    }
+
+    /// Steps of Gauss and Newton from a guess, in residuals over their sizes and constants over what moves these by one.
+    fn met(&self, system: &ConstantEquations<'_>, mut constants: Vec<f64>) -> Option<Vec<f64>> {
+        let k = system.free.len();
         for _ in 0..STEPS {
-            let (left, rows) = {
-                let value = self.value(row, &constants, known);
-                let left = self.finite(residuals, &value).ok()?;
-                (left, self.finite(slopes, &value).ok()?)
-            };
-            if left.iter().all(|x| x.abs() <= MET * size.max(size * size)) {
+            let (left, mut rows) = self.linearized(system, &constants)?;
+            if left.iter().all(|x| x.abs() <= MET) {
                 return Some(constants);
             }
+            let lengths = column_lengths(&rows, k);
             let mut normal = vec![0.0; k * k];
             let mut right = vec![0.0; k];
-            for (row, x) in rows.chunks(k).zip(&left) {
+            for (row, x) in rows.chunks_mut(k).zip(&left) {
+                row.iter_mut().zip(&lengths).for_each(|(s, l)| *s /= l);
                 for i in 0..k {
                     right[i] -= row[i] * x;
                     for j in 0..k {
@@ -436,13 +486,40 @@ impl<'b> Comparison<'b> {
                     }
                 }
             }
-            let trace: f64 = (0..k).map(|i| normal[i * k + i]).sum();
-            (0..k).for_each(|i| normal[i * k + i] += RIDGE * trace);
+            (0..k).for_each(|i| normal[i * k + i] += RIDGE * k as f64);
             let step = solved(k, &normal, &right)?;
-            free.iter()
-                .zip(step)
-                .for_each(|(&(j, _), step)| constants[j] += step);
+            for ((&(j, _), step), length) in system.free.iter().zip(step).zip(&lengths) {
+                constants[j] += step / length;
+            }
         }
         None
     }
+}
+
+/// The equations for the constants of a motion at a row.
+struct ConstantEquations<'s> {
+    residuals: &'s [Expr],
+    /// Their slopes by the free constants, row after row.
+    slopes: &'s [Expr],
+    /// The constants sought, with their places among all.
+    free: &'s [(usize, Symbol)],
+    /// The momenta with their values.
+    known: &'s [(Symbol, f64)],
+    row: usize,
+    /// What the residuals are measured by.
+    sizes: &'s [f64],
+}
+
+/// The lengths of the columns of a matrix with rows of this width; one for a column of zeros.
+fn column_lengths(rows: &[f64], width: usize) -> Vec<f64> {
+    let length = |j: usize| {
+        let squares = rows.iter().skip(j).step_by(width.max(1)).map(|x| x * x);
+        let length = squares.sum::<f64>().sqrt();
+        if length > 0.0 && length.is_finite() {
+            length
+        } else {
+            1.0
+        }
+    };
+    (0..width).map(length).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::evidence;
 use crate::motion_evidence::MotionEvidence;
+use chetaev_mechanics::words::number;
 use chetaev_mechanics::Context;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
@@ -67,18 +68,53 @@ impl Samples {
 /// The motion and how many of [`MotionEvidence::rows`] there are, which are equally spaced.
 ///
 /// # Errors
-/// That there are too few.
+/// That there are too few: fewer than `LEAST`, or so few that the motion bends between them.
 pub(super) fn rows(cx: &Context<'_>) -> Result<(Arc<MotionEvidence>, usize), String> {
     let evidence = evidence(cx).ok_or("no motion was computed")?;
     let count = evidence.rows().asked();
     let is_equal = equally_spaced(&evidence.rows().times[..count]);
-    match count > LEAST && is_equal {
-        true => Ok((evidence, count)),
-        false => Err(format!(
+    if count <= LEAST || !is_equal {
+        return Err(format!(
             "the motion has {} equally spaced output times; more than {LEAST} are needed",
             if is_equal { count } else { 0 }
-        )),
+        ));
     }
+    if let Some(t) = unresolved(&evidence, count, cx.system.n()) {
+        return Err(format!(
+            "the {count} output times are too few to follow the motion near t = {}, where it changes within less than their distance; a larger `output` under [simulation] tells more",
+            number(t)
+        ));
+    }
+    Ok((evidence, count))
+}
+
+/// The part of the changes of a velocity that Simpson's rule over the accelerations may miss.
+const MISSED: f64 = 1e-2;
+
+/// Where equally spaced rows do not follow the motion, if they do not: the changes of a velocity from row to row are not the integrals of
+/// its acceleration, as near the pericentre of a long ellipse. Integrals over such rows have no value that refinement would show.
+fn unresolved(evidence: &MotionEvidence, count: usize, n: usize) -> Option<f64> {
+    let run = evidence.rows();
+    let (v, a) = (run.layout.v().start, run.layout.a().start);
+    let length = run.times[count - 1] - run.times[0];
+    let h = length / (count - 1) as f64;
+    (0..n).find_map(|i| {
+        let fastest = (0..count).fold(0.0, |m: f64, j| m.max(run.row(j)[v + i].abs()));
+        let natural = run.scales.get(i).copied().unwrap_or(1.0) / length.abs();
+        let accuracy = evidence.tolerance * (fastest + natural);
+        let (mut missed, mut moved, mut worst) = (0.0, 0.0, (0.0, 0.0));
+        for j in 1..count - 1 {
+            let [before, here, after] = [j - 1, j, j + 1].map(|row| run.row(row));
+            let parts = [before[a + i], 4.0 * here[a + i], after[a + i]].map(|x| h / 3.0 * x);
+            let gap = (after[v + i] - before[v + i] - parts.iter().sum::<f64>()).abs();
+            missed += (gap - accuracy).max(0.0);
+            moved += parts.iter().map(|x| x.abs()).sum::<f64>();
+            if gap > worst.0 {
+                worst = (gap, run.times[j]);
+            }
+        }
+        (missed > MISSED * moved).then_some(worst.1)
+    })
 }
 
 /// Whether the steps differ by rounding alone.

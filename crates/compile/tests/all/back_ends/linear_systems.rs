@@ -183,6 +183,23 @@ fn units_do_not_make_a_matrix_singular() {
     }
 }
 
+/// c x + b z = p, c y + b z = q, b (x + y) = r has x − y = (p − q)/c and x + y = r/b: a stiff direction bordered by a condition, whose
+/// largest entries say nothing of its rank. With c = 0 it is singular.
+#[test]
+fn a_small_part_bordered_by_large_entries_is_regular() {
+    let (general, p, q, r) = (system(3, false), 5.0, 2.0, 4.0);
+    for (c, b) in [(1e-40, 1e-8), (1e-15, 1.0), (1e-100, 1e100), (1.0, 1e20)] {
+        let matrix = [c, 0.0, b, 0.0, c, b, b, b, 0.0];
+        let x = solve(&general, &[&matrix[..], &[p, q, r]].concat()).unwrap();
+        let (sum, difference) = (r / b, (p - q) / c);
+        let right = [0.5 * (sum + difference), 0.5 * (sum - difference)];
+        assert_close(&x[..2].iter().zip(right).map(|(x, r)| x / r).collect::<Vec<f64>>(), &[1.0, 1.0]);
+        let singular = [0.0, 0.0, b, 0.0, 0.0, b, b, b, 0.0];
+        let found = solve(&general, &[&singular[..], &[p, q, r]].concat());
+        assert!(matches!(found, Err(EvaluateFailure::Singular { .. })), "{found:?}");
+    }
+}
+
 #[test]
 fn an_infinite_entry_is_told_apart_from_a_singular_matrix() {
     for (n, is_symmetric) in [(2, false), (2, true)] {
