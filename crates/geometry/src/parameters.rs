@@ -55,10 +55,14 @@ pub(crate) fn notice(
         said.is_some_and(|said| said != general)
     };
     let values = system.values_in_constraints();
-    if differs(&values) {
-        let own = conditions_that_matter(&system.graph, &values, |_| Vec::new(), differs);
-        cx.prover.exceptional.add_stated(own);
-    }
+    let exceptional = &cx.prover.exceptional;
+    // What is exceptional where some values are put in is so of another system.
+    let before = exceptional.take();
+    let own = differs(&values)
+        .then(|| conditions_that_matter(&system.graph, &values, |_| Vec::new(), differs));
+    exceptional.take();
+    exceptional.add(before);
+    exceptional.add_stated(own.unwrap_or_default());
 }
 
 /// `a = 1 and b = 2`.

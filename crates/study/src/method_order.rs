@@ -4,7 +4,7 @@
 //! drown in rounding, so stretches of several lengths and places are tried until the slopes of neighbouring steps agree.
 //! Where a motion crosses a corner of its equations the stretch across the corner is measured instead.
 
-mod corners;
+pub(crate) mod corners;
 
 use crate::options::Hooks;
 use chetaev_integrate::ErrorControl;
@@ -70,7 +70,7 @@ const SHORT: f64 = 1.5;
 const ROUNDING: f64 = 2e-13;
 const LARGE: f64 = 1e-2;
 /// Most fixed steps spent on a system of up to [`SMALL`] coordinates; of larger ones fewer, as a step takes longer.
-const MOST_STEPS: u32 = 4000;
+const MOST_STEPS: u32 = 8000;
 const SMALL: usize = 8;
 /// Lengths of stretches over that of 24 average steps of the run, in the order tried.
 const LENGTHS: [f64; 12] = [
@@ -101,7 +101,7 @@ pub(crate) fn observed_order(
         nominal,
         average: span / run.statistics.steps.max(1) as f64,
     };
-    match corners::first(subject, run) {
+    match corners::first(subject.system, subject.terms, subject.binding, run) {
         Some(corner) => laboratory.across(corner),
         None => laboratory.search(),
     }
@@ -124,34 +124,61 @@ impl Laboratory<'_> {
         places.dedup();
         let mut best: Option<Orders> = None;
         let size = self.subject.start.q.len().div_ceil(SMALL).max(1) as u32;
-        let most = MOST_STEPS / (size * size);
-        let (mut spent, mut tried) = (0, 0);
-        'all: for length in LENGTHS {
-            for &place in &places {
-                let Some(start) = self.start_at(place) else {
-                    continue;
-                };
-                let room = self.room(start.t);
-                let length = (24.0 * self.average * length).abs().min(room.abs());
-                let span = (self.run.t - self.subject.start.t).abs();
-                if length <= 1e-9 * span.max(start.t.abs()) || spent >= most {
-                    continue;
-                }
-                spent += COUNTS.iter().sum::<u32>() + REFERENCE;
-                let Some(found) = self.measure(&start, length * room.signum()) else {
-                    continue;
-                };
-                tried += 1;
-                if best.as_ref().is_none_or(|b| better(&found, b)) {
-                    best = Some(found);
-                }
-                let near = |o: f64| (o - self.nominal).abs() <= NEAR;
-                if best.as_ref().is_some_and(|b| b.observed.is_some_and(near)) {
-                    break 'all;
+        let mut left = MOST_STEPS / (size * size);
+        let mut measured: Vec<(usize, f64)> = Vec::new();
+        let mut tried = 0;
+        let near = |o: &Orders| {
+            o.observed
+                .is_some_and(|order| (order - self.nominal).abs() <= NEAR)
+        };
+        // A short or slow motion shows no order before its end.
+        for beyond in [false, true] {
+            for length in LENGTHS {
+                for &place in &places {
+                    let Some((start, length)) = self.stretch(place, length, beyond) else {
+                        continue;
+                    };
+                    if measured.contains(&(place, length)) {
+                        continue;
+                    }
+                    measured.push((place, length));
+                    let steps = COUNTS.iter().sum::<u32>() + REFERENCE;
+                    let Some(rest) = left.checked_sub(steps) else {
+                        return best.map(|best| Orders { tried, ..best });
+                    };
+                    left = rest;
+                    let Some(found) = self.measure(&start, length) else {
+                        continue;
+                    };
+                    tried += 1;
+                    // Beyond the end nobody has looked for corners: a lower order says nothing there.
+                    let counts = !beyond || near(&found);
+                    if counts && best.as_ref().is_none_or(|b| better(&found, b)) {
+                        best = Some(found);
+                    }
+                    if best.as_ref().is_some_and(near) {
+                        return best.map(|best| Orders { tried, ..best });
+                    }
                 }
             }
         }
         best.map(|best| Orders { tried, ..best })
+    }
+
+    /// A start and the signed length of a stretch from it: within the run, or longer than what is left of it, where the run was finished.
+    fn stretch(&self, place: usize, length: f64, beyond: bool) -> Option<(ConsistentState, f64)> {
+        let start = self.start_at(place)?;
+        let room = self.room(start.t);
+        let wanted = (24.0 * self.average * length).abs();
+        let span = (self.run.t - self.subject.start.t).abs();
+        let own = if beyond {
+            wanted
+        } else {
+            wanted.min(room.abs())
+        };
+        let is_new = !beyond || (self.run.ending.finished && wanted > room.abs());
+        let is_long = own > 1e-9 * span.max(start.t.abs());
+        (is_new && is_long).then(|| (start, own * self.average.signum()))
     }
 
     /// The time left after t, well before a singularity that has ended the run.

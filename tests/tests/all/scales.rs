@@ -328,6 +328,45 @@ fn small_factors_of_constraints() {
     }
 }
 
+/// An electron in a magnetic field, the Moon, and an ellipse so long that the output does not follow its pericentre: what the principles say
+/// is proved, and no number along the motion contradicts it.
+#[test]
+fn ordinary_motions_contradict_nothing() {
+    let orbit = |parameters: &str, start: &str, end: &str| {
+        format!(
+            "coordinates = [\"r\", \"th\"]\n[parameters]\n{parameters}\n[lagrangian]\nL = \"1/2 m (r'^2 + r^2 th'^2) + k m/r\"\n\
+             [initial]\n{start}\n[simulation]\nt_end = {end}\n"
+        )
+    };
+    let electron = "coordinates = [\"x\", \"y\"]\n[parameters]\nm = 9.109e-31\nB = 1.602e-19\n[lagrangian]\n\
+         L = \"1/2 m (x'^2 + y'^2) + 1/2 B (x y' - y x')\"\n[initial]\nx = 1e-9\ny = 0\n\"y'\" = 100\n[simulation]\nt_end = 1e-10\n";
+    let moon = orbit(
+        "m = 7.342e22\nk = 3.986e14",
+        "r = 3.633e8\n\"th'\" = 2.96e-6",
+        "2.4e6",
+    );
+    let long = orbit("m = 1\nk = 1", "r = 1\n\"th'\" = 0.1", "5");
+    let ask = Ask {
+        claims: vec!["principles"],
+        ..Ask::default()
+    };
+    for text in [electron, &moon, &long] {
+        let ended = ended_text(text, &ask);
+        assert_eq!(ended.exit, 0, "{}", ended.text);
+        let study = ended.study.as_ref().expect(&ended.text);
+        let witnesses = study.verdicts.iter();
+        let witnesses = witnesses.filter(|decided| decided.claim.starts_with("witness."));
+        let words: Vec<(String, &str)> = witnesses
+            .map(|decided| (decided.full_id(), decided.finding.verdict.word()))
+            .collect();
+        assert!(words.len() > 5, "{words:?}");
+        assert!(
+            words.iter().all(|(_, word)| *word != "refuted"),
+            "{words:?}"
+        );
+    }
+}
+
 /// A blade that glides straight on, and a driven car: residuals and terms are rounding alone, and say nothing.
 #[test]
 fn rounding_over_rounding_refutes_nothing() {

@@ -1,8 +1,9 @@
 //! Places where a motion crosses a corner or a jump of its equations of motion.
 
+use chetaev_mechanics::{MotionTerms, System};
 use chetaev_motion::observe::Observer;
-use chetaev_motion::{Run, Subject};
-use chetaev_symbolic::{Expr, Function, Node};
+use chetaev_motion::{Binding, Run};
+use chetaev_symbolic::{Expr, Function, Graph, Node};
 
 /// A crossing of a corner.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,16 +23,20 @@ struct Bend {
 
 /// The first place along the rows where the argument of an absolute value or a sign in the equations changes sign, or an
 /// angle crosses its branch cut.
-pub(super) fn first(subject: &Subject<'_>, run: &Run) -> Option<Corner> {
-    let bends = bends(subject);
+pub(crate) fn first(
+    system: &System,
+    terms: &MotionTerms,
+    binding: &Binding,
+    run: &Run,
+) -> Option<Corner> {
+    let g = &system.graph;
+    let bends = bends(g, terms, binding);
     let mut expressions: Vec<Expr> = bends.iter().map(|b| b.argument).collect();
-    let g = &subject.system.graph;
     expressions.extend(bends.iter().map(|b| b.side.unwrap_or(g.integer(-1))));
     if bends.is_empty() {
         return None;
     }
-    let mut observer =
-        Observer::new(subject.system, subject.terms, subject.binding, &expressions).ok()?;
+    let mut observer = Observer::new(system, terms, binding, &expressions).ok()?;
     let series = observer.along(run);
     let (arguments, sides) = series.split_at(bends.len());
     let mut found: Option<Corner> = None;
@@ -58,13 +63,12 @@ fn crossing(values: &[f64], side: &[f64]) -> Option<usize> {
         .find(|&j| values[j] * values[j + 1] < 0.0 && side[j] < 0.0 && side[j + 1] < 0.0)
 }
 
-fn bends(subject: &Subject<'_>) -> Vec<Bend> {
-    let (g, terms) = (&subject.system.graph, subject.terms);
+fn bends(g: &Graph, terms: &MotionTerms, binding: &Binding) -> Vec<Bend> {
     let mut roots = terms.mass_matrix.concat();
     roots.extend(terms.jacobian.concat());
     roots.extend(&terms.force);
     roots.extend(&terms.constraint_rate);
-    let roots = g.substitute_all(&roots, &subject.binding.controls);
+    let roots = g.substitute_all(&roots, &binding.controls);
     let mut bends = Vec::new();
     for e in g.reachable(&roots) {
         let Node::Apply {

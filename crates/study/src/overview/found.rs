@@ -190,7 +190,9 @@ fn quadratures(study: &Study) -> Option<Found> {
             format!("solved by quadratures where {}", condition(decided))
         }
         Verdict::Undecided { tried } => {
-            let parts = tried.split("; ");
+            // What is missing for arbitrary values too is missing for those stated.
+            let for_those_stated = tried.split("; for arbitrary values ").next();
+            let parts = for_those_stated.unwrap_or_default().split("; ");
             let missing =
                 parts.filter(|part| part.ends_with("missing") || part.contains("measure"));
             let missing: Vec<&str> = missing.collect();

@@ -169,9 +169,9 @@ fn projected(
             .map(|p| (p.value, p.definition))
             .collect();
         let at_momenta = |es: &[Expr]| g.substitute_all(es, &definitions);
-        let by_momenta = at_momenta(&legendre.by_momenta);
-        let pairs = system.coordinates.iter().zip(by_momenta);
-        lag = pairs.map(|(c, v)| g.sub(c.v, v)).collect();
+        let velocities = system.coordinates.iter().map(|c| c.v);
+        let by_momenta = at_momenta(&legendre.by_momenta).into_iter();
+        lag = velocities.chain(by_momenta.map(|v| g.neg(v))).collect();
         let by_coordinates = at_momenta(&legendre.by_coordinates);
         slopes = by_coordinates.into_iter().map(|e| g.neg(e)).collect();
     }
@@ -179,7 +179,8 @@ fn projected(
     let forces: Vec<Expr> = forces.map(|(&a, &b)| g.add(&[a, b])).collect();
     let samples = Samples::new(cx, &[&forces, &momenta, &jacobian, &moved, &lag])?;
     let rows = 0..samples.times.len();
-    let width = n + lag.len();
+    let sizes = sizes_of_momenta(&samples, n);
+    let width = n + lag.len() / 2;
     quadratures(form, &samples, &rows, width, |row, waves| {
         let (eta, free) = waves.split_at(n);
         let eta: (Vec<f64>, Vec<f64>) = eta.iter().copied().unzip();
@@ -187,10 +188,28 @@ fn projected(
         let (value, rate) = projection(r, n, of(2), of(3), &eta.0, &eta.1)?;
         let parts = of(0).iter().zip(&value).chain(of(1).iter().zip(&rate));
         let parts = parts.map(|(a, b)| a * b);
-        let lag = of(4).iter().zip(free).map(|(a, b)| a * b.0);
+        // δp is measured by what δp v has in common with p D(δq).
+        let moved = free.iter().zip(&sizes).map(|(wave, size)| wave.0 * size);
+        let moved: Vec<f64> = moved.collect();
+        let lag = of(4).iter().zip(moved.iter().cycle()).map(|(a, b)| a * b);
         let all: Vec<f64> = parts.chain(lag).collect();
         Some((all.iter().sum(), all.iter().map(|x| x.abs()).sum()))
     })
+}
+
+/// The largest momenta over the lengths of the ways that their coordinates go: units of δp for δq of the unit that has the coordinate.
+fn sizes_of_momenta(samples: &Samples, n: usize) -> Vec<f64> {
+    let rows = samples.times.len();
+    let length = (samples.times[rows - 1] - samples.times[0]).abs();
+    let largest = |group: usize, i: usize| {
+        let values = (0..rows).filter_map(|row| samples.at(group, row).get(i));
+        values.fold(0.0, |m: f64, x| m.max(x.abs()))
+    };
+    let size = |i: usize| match (largest(1, i), largest(4, i) * length) {
+        (p, way) if p > 0.0 && way > 0.0 => p / way,
+        _ => 1.0,
+    };
+    (0..n).map(size).collect()
 }
 
 /// `δq = η − fᵥᵀ G⁻¹ fᵥ η`, `G = fᵥ fᵥᵀ`, and D(δq), from fᵥ and its rate.

@@ -9,8 +9,10 @@ use super::neighbours::COORDINATES;
 use super::refined::{worst, Refined, Rule, Span, Term};
 use super::wave::Wave;
 use super::{algebra, evidence, show, Figure};
+use crate::method_order::corners;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
 use chetaev_mechanics::sample::Generator;
+use chetaev_mechanics::words::number;
 use chetaev_principles::second_kind::Ends;
 use chetaev_symbolic::Verdict;
 use std::sync::Arc;
@@ -67,6 +69,9 @@ impl Claim for WitnessOfSecondKind {
         if let Some(other) = elsewhere(cx) {
             return other;
         }
+        if let Some(why) = bend(cx) {
+            return Verdict::undecided(why).into();
+        }
         let ends = Ends::of(subject);
         let proof = proved_by(subject);
         if !matches!(cx.finding(&proof).verdict, Verdict::Proved(_)) {
@@ -118,6 +123,16 @@ fn differences() -> Vec<Vec<f64>> {
 
 /// Places of a difference.
 const NODES: usize = 9;
+
+/// Why differences over rows give no rates along a motion, where its equations bend or jump on the way.
+fn bend(cx: &Context<'_>) -> Option<String> {
+    let evidence = evidence(cx)?;
+    let corner = corners::first(cx.system, cx.terms, &evidence.binding, evidence.rows())?;
+    let (text, t) = (&corner.text, number(corner.t));
+    Some(format!(
+        "{text} bends or jumps at t = {t}, where differences of rows give no rates"
+    ))
+}
 
 /// The weights of the values at 0, 1, …, 8 in the derivative at one of them of the polynomial through all.
 fn derivative_at(place: usize) -> Vec<f64> {
