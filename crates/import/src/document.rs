@@ -72,8 +72,7 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
         .map_err(|problem| ImportError::NotXml(problem.to_string()))
 }
 
-/// Bounds the depth before anything is built. Comments and attributes may contain `<` or `>` too, which only makes the bound coarser by what
-/// stands in them; closing tags are counted as such.
+/// Bounds the depth before anything is built: opening tags less closing ones.
 fn deep(text: &str) -> Result<(), ImportError> {
     let mut depth = 0_usize;
     let mut rest = text;
@@ -87,7 +86,7 @@ fn deep(text: &str) -> Result<(), ImportError> {
             .find(|(begin, _)| rest.starts_with(begin));
         let end = match skipped {
             Some((_, end)) => rest.find(end).map(|at| at + end.len()),
-            None => rest.find('>').map(|at| at + 1),
+            None => end_of_tag(rest),
         };
         let Some(end) = end else { break };
         let tag = &rest[..end];
@@ -105,6 +104,20 @@ fn deep(text: &str) -> Result<(), ImportError> {
         rest = &rest[end..];
     }
     Ok(())
+}
+
+/// Behind the `>` of a tag; one in quotation marks is a part of a value.
+fn end_of_tag(tag: &str) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in tag.char_indices() {
+        match (quote, c) {
+            (None, '>') => return Some(at + 1),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if open == c => quote = None,
+            _ => {}
+        }
+    }
+    None
 }
 
 /// The line of an element.

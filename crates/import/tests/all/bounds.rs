@@ -36,3 +36,13 @@ fn what_is_no_robot_is_refused_with_a_reason() {
     let large = " ".repeat((16 << 20) + 1);
     assert!(matches!(import(&large), Err(ImportError::TooLarge(_))));
 }
+
+/// A sign of order in a value opens no element.
+#[test]
+fn many_elements_beside_each_other_are_not_deep() {
+    let links: String = (0..400)
+        .map(|i| format!("<link name=\"a{i}\" about=\"1 > 0\"/>"))
+        .collect();
+    let found = import(&format!("<robot name=\"flat\">{links}</robot>"));
+    assert!(found.is_ok(), "{found:?}");
+}

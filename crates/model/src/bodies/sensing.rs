@@ -310,9 +310,14 @@ impl<'r> Lowering<'r> {
                 (body.clone(), tree.joints[*joint].object.place)
             }
         };
+        // What hangs on itself is reported where it is placed.
+        let most = self.bodies.len() + tree.frames.len();
         let bodies = (0..self.bodies.len()).filter(|&number| {
             let mut at = self.bodies[number].name.clone();
-            while at != root && at != "ground" {
+            for _ in 0..most {
+                if at == root || at == "ground" {
+                    break;
+                }
                 at = self.hangs_on(&at, tree, whole.built).0;
             }
             at == root

@@ -286,6 +286,10 @@ fn what_makes_no_sense_of_forces_and_sensors_is_said() {
         ("sensors.s = \"lambda_nothing\"\n", "no constraint `nothing`"),
         ("constraints.c = \"q' = 1\"\nsensors.s = \"lambda_c\"\n[lagrangian]\nV = \"s\"\n", "lambda_c"),
         ("forces.q = \"1\"\nsensors.s = { type = \"reaction\", of = \"q\" }\n", "is not determined"),
+        (
+            "bodies.c = { mass = 1 }\nbodies.d = { mass = 1 }\njoints.r = { parent = \"c\", child = \"d\" }\njoints.s = { parent = \"d\", child = \"c\" }\nsensors.p = { type = \"reaction\", of = \"q\" }\n",
+            "hang on each other",
+        ),
         ("joints.g = { type = \"gear\", coordinates = [\"q\", \"r\"] }\n", "no joint has such a coordinate"),
         (
             "contacts.c = { type = \"sliding\", body = \"b\", friction = { coefficient = 1, load = \"lambda_c_touch\", speed = 1 } }\n",
