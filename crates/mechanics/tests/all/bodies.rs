@@ -660,13 +660,16 @@ fn forms_of_system(system: &System) -> Vec<(String, Verdict)> {
 
 /// Every model of bodies in the gallery that is no family of sizes of its own.
 const ALL: &[&str] = &[
+    "ball-in-bowl",
     "chain",
     "chaplygin-sleigh",
     "chaplygin-sphere",
     "differential-drive",
     "double-pendulum",
+    "double-wishbone",
     "falling-rolling-disc",
     "four-bar",
+    "four-bar-hinges",
     "gyroscope",
     "heavy-top",
     "mecanum",
@@ -675,6 +678,7 @@ const ALL: &[&str] = &[
     "slider-crank",
     "snakeboard",
     "sphere-on-turntable",
+    "spherical-robot",
     "tippe-top",
     "trailer",
     "unicycle",
