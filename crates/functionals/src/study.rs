@@ -3,11 +3,11 @@
 use crate::claims::{Claim, Context, Finding, CLAIMS};
 use crate::functional::Problem;
 use crate::variation::{Variation, VariationError};
-use chetaev_model::decided::full_id;
+use chetaev_model::decision::full_id;
 use chetaev_symbolic::syntax::names::closest;
 
 /// A claim about a functional with its verdict.
-pub type Decided = chetaev_model::decided::Decided<Finding>;
+pub type Decided = chetaev_model::decision::Decided<Finding>;
 
 /// The word of the group that all claims of this crate are of.
 pub const GROUP: &str = "functional";

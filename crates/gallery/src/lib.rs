@@ -85,9 +85,10 @@ impl Entry {
             let mut lines = text.lines();
             lines.any(|line| line.replace(' ', "") == "kind=\"functional\"")
         };
-        match self.copied().iter().any(says) {
-            true => Kind::Functional,
-            false => Kind::Motion,
+        if self.copied().iter().any(says) {
+            Kind::Functional
+        } else {
+            Kind::Motion
         }
     }
 

@@ -5,10 +5,10 @@
 
 mod document;
 mod mjcf;
+mod model_text;
 mod numbers;
 mod robot;
 mod urdf;
-mod writing;
 
 pub use document::ImportError;
 
@@ -44,7 +44,7 @@ pub fn import(text: &str) -> Result<Imported, ImportError> {
     };
     robot.notes.sort_by_key(|note| note.line);
     Ok(Imported {
-        text: writing::written(&robot),
+        text: model_text::written(&robot),
         notes: robot.notes,
     })
 }

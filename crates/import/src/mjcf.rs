@@ -140,16 +140,15 @@ fn body(
     let (mut parent, mut place) = (parent, Some((at, turned)));
     let count = all.len();
     for (number, node) in all.into_iter().enumerate() {
-        let child = match number + 1 == count {
-            true => name.clone(),
-            false => {
-                let between = robot.name(&format!("{name}_link_{}", number + 1), node);
-                robot.bodies.push(Body {
-                    name: between.clone(),
-                    ..Body::default()
-                });
-                between
-            }
+        let child = if number + 1 == count {
+            name.clone()
+        } else {
+            let between = robot.name(&format!("{name}_link_{}", number + 1), node);
+            robot.bodies.push(Body {
+                name: between.clone(),
+                ..Body::default()
+            });
+            between
         };
         let mut joint = joint(robot, node, (parent, child.clone()), angles, joints)?;
         let (at, turned) = place.take().unwrap_or(([0.0; 3], STILL));

@@ -6,7 +6,7 @@
 
 mod bodies;
 mod builder;
-pub mod decided;
+pub mod decision;
 mod diagnostic;
 mod dimension;
 pub mod drawing;

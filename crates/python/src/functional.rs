@@ -74,9 +74,10 @@ impl Functional {
         let Some(problem) = loaded.problem else {
             return Err(problem::of_model(py, &loaded.diagnostics));
         };
-        let warnings = match loaded.diagnostics.list.is_empty() {
-            true => String::new(),
-            false => loaded.diagnostics.render(Style::Plain),
+        let warnings = if loaded.diagnostics.list.is_empty() {
+            String::new()
+        } else {
+            loaded.diagnostics.render(Style::Plain)
         };
         Ok(Functional {
             known: known(&problem),

@@ -47,7 +47,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// A claim about a system with its verdict.
-pub type Decided = chetaev_model::decided::Decided<Arc<Finding>>;
+pub type Decided = chetaev_model::decision::Decided<Arc<Finding>>;
 
 /// A computed motion with what is known about it.
 #[derive(Debug)]

@@ -108,9 +108,10 @@ impl Table {
             let constraint = &system.constraints[terms.constraint_index[row]];
             g.symbol(&format!("lambda_{}", constraint.name), 0)
         };
-        let rows = match is_other {
-            true => (0..terms.constraint_index.len()).collect(),
-            false => Reactions::of(system, terms, &study.prepared.selection).undetermined,
+        let rows = if is_other {
+            (0..terms.constraint_index.len()).collect()
+        } else {
+            Reactions::of(system, terms, &study.prepared.selection).undetermined
         };
         let unknown: Vec<Expr> = rows.into_iter().map(multiplier).collect();
         for sensor in &study.model.sensors {

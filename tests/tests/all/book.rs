@@ -253,10 +253,9 @@ fn blocks(page: &str) -> Vec<(&str, &str)> {
 fn replaced(model: &str, line: &str) -> String {
     let key = |line: &str| line.split_once(" = ").map(|(key, _)| key.to_owned());
     assert!(model.lines().any(|own| key(own) == key(line)), "{line}");
-    let own = model.lines().map(|own| match key(own) == key(line) {
-        true => line,
-        false => own,
-    });
+    let own = model
+        .lines()
+        .map(|own| if key(own) == key(line) { line } else { own });
     own.collect::<Vec<_>>().join("\n")
 }
 

@@ -16,7 +16,7 @@ use crate::functional::{Functional, Problem};
 use crate::notation::{written, Node};
 use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
-use chetaev_model::decided::Found;
+use chetaev_model::decision::Found;
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::{Expr, Verdict};
 

@@ -195,11 +195,10 @@ impl Writer<'_> {
                 let all = format!("<mo lspace=\"0\" rspace=\"0\">{}</mo>", "′".repeat(primes));
                 let (below, _) = self.places(indices, &[]);
                 let below: String = below.iter().map(|own| format!("<mi>{own}</mi>")).collect();
-                match below.is_empty() {
-                    true => format!("<msup><mrow>{head}</mrow>{all}</msup>"),
-                    false => {
-                        format!("<msubsup><mrow>{head}</mrow><mrow>{below}</mrow>{all}</msubsup>")
-                    }
+                if below.is_empty() {
+                    format!("<msup><mrow>{head}</mrow>{all}</msup>")
+                } else {
+                    format!("<msubsup><mrow>{head}</mrow><mrow>{below}</mrow>{all}</msubsup>")
                 }
             }
             _ => self.indexed(&format!("{head}{}", "'".repeat(primes)), indices, &[]),

@@ -4,7 +4,7 @@
 //! claims as slices; a [`Registry`] joins them, and hypotheses are resolved by id at run time, so that a formulation
 //! may require a verdict of the geometry without the crates knowing each other.
 
-pub use chetaev_model::decided::full_id;
+pub use chetaev_model::decision::full_id;
 
 pub mod bodies;
 pub mod formulation;
@@ -30,7 +30,7 @@ use crate::redundancy::LeftOut;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words;
-use chetaev_model::decided::Found;
+use chetaev_model::decision::Found;
 use chetaev_symbolic::{Expr, Verdict};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;

@@ -68,9 +68,10 @@ fn meridian(
     let gained = 5.0 / 7.0 * G * sin;
     let across = -speed * speed / reach;
     // The point that touches lies towards the middle of the sphere outside, away from it inside.
-    let turn = match is_inside {
-        true => -speed / BALL,
-        false => speed / BALL,
+    let turn = if is_inside {
+        -speed / BALL
+    } else {
+        speed / BALL
     };
     let state = [
         ("x", reach * sin),

@@ -47,9 +47,10 @@ impl<'r> Lowering<'r> {
         };
         let (name, place) = (object.name().to_owned(), object.place);
         let tilt = self.turns(object, "tilt", false);
-        let keys = match joint.is_reversed {
-            true => ["child_at", "at"],
-            false => ["at", "child_at"],
+        let keys = if joint.is_reversed {
+            ["child_at", "at"]
+        } else {
+            ["at", "child_at"]
         };
         let ends = [(parent, keys[0]), (child, keys[1])].map(|(frame, key)| {
             let at = self

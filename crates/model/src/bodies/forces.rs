@@ -130,9 +130,10 @@ impl<'r> Lowering<'r> {
 
     /// The velocity of a point against the ground, along the axes of a frame.
     pub(crate) fn velocity_of(&mut self, end: End<'_>, axes: FrameId) -> Vector {
-        let own = match axes == end.frame {
-            true => end.frame,
-            false => self.unturned(end.frame, end.at),
+        let own = if axes == end.frame {
+            end.frame
+        } else {
+            self.unturned(end.frame, end.at)
         };
         let rates = self.rates(GROUND, own);
         let carried = self.algebra.cross(rates.omega, end.at);

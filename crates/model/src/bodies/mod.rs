@@ -9,10 +9,10 @@
 //! that are no planes; `shapes`, `joints`, `contacts` and `surfaces` are registries.
 
 mod algebra;
+mod ball_contacts;
 mod closing;
 mod contacts;
 mod couplings;
-mod curved;
 mod families;
 mod forces;
 mod joints;
@@ -26,7 +26,7 @@ mod pruning;
 mod reading;
 mod ropes;
 mod sections;
-mod sensing;
+mod sensors;
 mod shapes;
 mod solids;
 mod surfaces;
@@ -44,7 +44,7 @@ use crate::source::Place;
 use lowering::{Lowering, Up};
 use objects::Kept;
 use reading::{quantity, Slot};
-use sensing::Whole;
+use sensors::Whole;
 
 /// The sections that are lowered.
 const SECTIONS: &[&str] = &["frames", "bodies", "joints", "contacts"];
@@ -128,7 +128,7 @@ pub(crate) fn lower(
         root.remove(section);
     }
     leave_out(root, "forces", forces::acts_on_body);
-    leave_out(root, "sensors", sensing::is_ready);
+    leave_out(root, "sensors", sensors::is_ready);
     written.merge(root, place);
     Conditions {
         numbers,

@@ -36,9 +36,10 @@ impl<'r> Lowering<'r> {
         self.constrain(name, longer, about, place);
         // One of the ends must be a body's; the other one may be anything.
         let is_body = self.bodies.iter().any(|body| body.name == from.name);
-        let ((own, point), (other, other_point)) = match is_body {
-            true => ((from, start), (to, end)),
-            false => ((to, end), (from, start)),
+        let ((own, point), (other, other_point)) = if is_body {
+            ((from, start), (to, end))
+        } else {
+            ((to, end), (from, start))
         };
         if !self.bodies.iter().any(|body| body.name == own.name) {
             let message = format!("{} is tied to no body", object.words());

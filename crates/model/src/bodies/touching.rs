@@ -9,7 +9,7 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
-use super::curved::Ball;
+use super::ball_contacts::Ball;
 use super::lowering::{FrameId, Lowering, GROUND};
 use super::objects::KeptReaction;
 use super::placing::Built;

@@ -158,9 +158,10 @@ impl<'r> Lowering<'r> {
         let is_body = |name: &str| self.bodies.iter().any(|body| body.name == name);
         let is_frame = child == "ground" || tree.frames.contains_key(&child);
         let is_reversed = is_frame && is_body(&parent);
-        let (parent, child) = match is_reversed {
-            true => (child, parent),
-            false => (parent, child),
+        let (parent, child) = if is_reversed {
+            (child, parent)
+        } else {
+            (parent, child)
         };
         if !self.bodies.iter().any(|body| body.name == child) {
             self.no_such_body(&child, place, &object);

@@ -1,6 +1,6 @@
 //! Euler equations and natural conditions in one notation: what `derive` prints of a functional.
 
-use super::shown::{boundary, euler, indexed_euler, indexed_natural, options, Indexed, Shown};
+use super::equations::{boundary, euler, indexed_euler, indexed_natural, options, Indexed, Shown};
 use super::typesetting::{in_print, variation_name};
 use crate::written::latex::{escaped, BEGIN};
 use chetaev_functionals::functional::Functional;
@@ -109,9 +109,12 @@ fn as_latex(functional: &Functional, parts: &[Part]) -> String {
 /// A heading that begins with a capital, with names of pieces as formulas: `Conditions on $S_{u}$`.
 fn heading(words: &str) -> String {
     let words = in_print(words);
-    let each = words.split(' ').map(|word| match word.contains("_{") {
-        true => format!("${word}$"),
-        false => escaped(word),
+    let each = words.split(' ').map(|word| {
+        if word.contains("_{") {
+            format!("${word}$")
+        } else {
+            escaped(word)
+        }
     });
     let whole = each.collect::<Vec<_>>().join(" ");
     let mut letters = whole.chars();

@@ -1,12 +1,12 @@
 //! Studies of functionals for people and programs: the summary, the record and the report.
 
 mod derivation;
+mod equations;
 mod flat;
 mod page;
 mod pictures;
 mod record;
 mod selection;
-mod shown;
 mod summary;
 mod table;
 mod typesetting;

@@ -1,6 +1,6 @@
 //! The report of a functional.
 
-use super::shown::{
+use super::equations::{
     absent, boundary, euler, given, head, in_order, indexed_euler, indexed_natural, joined, kind,
     labels, number, used, Indexed, Shown,
 };
@@ -254,9 +254,10 @@ fn inside(f: &Functional, variation: &Variation) -> Vec<EquationSection> {
         in_words.push_str(&format!(" That of δ{name} vanishes identically."));
     }
     let has_pairs = f.interior().any(|field| field.shape == Shape::Symmetric);
-    let in_components = match has_pairs && f.space.dimensions() > 1 {
-        true => "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two.",
-        false => "The same equations, carried out.",
+    let in_components = if has_pairs && f.space.dimensions() > 1 {
+        "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two."
+    } else {
+        "The same equations, carried out."
     };
     let shown = euler(f, variation);
     if own.is_empty() {
@@ -289,9 +290,10 @@ fn on_pieces(f: &Functional, pieces: &[String], conditions: &[Shown]) -> Vec<Equ
     let names = in_print(&pieces.join(", "));
     let (id, title) = (format!("on-{piece}"), format!("Conditions on {names}"));
     let fixed = given(f, piece);
-    let known = match fixed.is_empty() {
-        true => String::new(),
-        false => format!("Given here: {}. ", in_print(&fixed.join(", "))),
+    let known = if fixed.is_empty() {
+        String::new()
+    } else {
+        format!("Given here: {}. ", in_print(&fixed.join(", ")))
     };
     let own = indexed_natural(f, piece).unwrap_or_default();
     if own.is_empty() {
@@ -314,9 +316,10 @@ fn on_pieces(f: &Functional, pieces: &[String], conditions: &[Shown]) -> Vec<Equ
             .any(|field| head(of.trim_start_matches('δ')) == field.name)
     };
     let has_traction = own.iter().any(|own| !is_field(&own.of));
-    let whole = match has_traction {
-        true => " A traction is varied as a whole.",
-        false => "",
+    let whole = if has_traction {
+        " A traction is varied as a whole."
+    } else {
+        ""
     };
     let free =
         format!("{known}The coefficient of each variation that is free here vanishes.{whole}");

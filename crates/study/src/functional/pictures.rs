@@ -75,9 +75,12 @@ pub(super) fn table(study: &Study) -> Option<Table> {
             let known = own.fields.iter().find(|(c, _)| *c == point.component);
             let value = known.map(|(_, polynomial)| polynomial.exact(&point.at));
             let error = error(own, point);
-            let value = value.map_or_else(String::new, |value| match error == 0.0 {
-                true => value.to_string(),
-                false => format!("{:.9e}", to_f64(&value)),
+            let value = value.map_or_else(String::new, |value| {
+                if error == 0.0 {
+                    value.to_string()
+                } else {
+                    format!("{:.9e}", to_f64(&value))
+                }
             });
             cells.push(value.as_str().into());
             let error = if error == 0.0 {

@@ -1,7 +1,7 @@
 //! `study.json` of a functional.
 
+use super::equations::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use super::flat::flat;
-use super::shown::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use crate::record::{
     of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
     VerdictRecord, WorkRecord, WrittenRecord, SCHEMA,

@@ -1,6 +1,6 @@
 //! The text for a terminal.
 
-use super::shown::{
+use super::equations::{
     absent, boundary, euler, given, in_order, indexed_euler, indexed_natural, joined, kind, used,
     Indexed, Shown,
 };

@@ -31,7 +31,7 @@ pub(super) fn rows(problem: &Problem) -> Vec<Row> {
 fn row(own: &Relative, is_own: bool) -> Row {
     let labels = |all: &[String]| -> String {
         let mut all: Vec<&String> = all.iter().collect();
-        all.sort_by_key(|label| super::shown::number(label));
+        all.sort_by_key(|label| super::equations::number(label));
         let each: Vec<String> = all.iter().map(|label| format!("({label})")).collect();
         if each.is_empty() {
             "–".to_owned()

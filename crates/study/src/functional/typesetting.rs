@@ -1,6 +1,6 @@
 //! Names, expressions and stated equations of a functional as formulas.
 
-use super::shown::{document, options};
+use super::equations::{document, options};
 use chetaev_functionals::functional::{Functional, Role};
 use chetaev_functionals::notation::{parse, parse_sides, written, Node};
 use chetaev_report::data::Formula;
@@ -151,9 +151,10 @@ fn lowered(word: &str) -> String {
         }
         end = at + sign.len_utf8();
     }
-    match is_name && end > 0 && end <= 4 {
-        true => format!("{head}_{{{}}}{}", &tail[..end], lowered(&tail[end..])),
-        false => word.to_owned(),
+    if is_name && end > 0 && end <= 4 {
+        format!("{head}_{{{}}}{}", &tail[..end], lowered(&tail[end..]))
+    } else {
+        word.to_owned()
     }
 }
 
@@ -166,9 +167,10 @@ pub(super) fn caption(e: &chetaev_functionals::functional::Equation) -> String {
         Role::Imposed => "imposed before the variation",
         _ => "stated to follow",
     };
-    let words = match place.is_empty() {
-        true => role.to_owned(),
-        false => format!("{}; {role}", place.join(" ")),
+    let words = if place.is_empty() {
+        role.to_owned()
+    } else {
+        format!("{}; {role}", place.join(" "))
     };
     in_print(&words)
 }

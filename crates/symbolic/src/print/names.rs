@@ -174,9 +174,10 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
             argument: None,
         };
     };
-    let letters = match first.contains(',') {
-        true => first,
-        false => first.trim_end_matches(|c: char| c.is_ascii_digit()),
+    let letters = if first.contains(',') {
+        first
+    } else {
+        first.trim_end_matches(|c: char| c.is_ascii_digit())
     };
     let mut pieces = Vec::new();
     let head = if letters.is_empty() {

@@ -17,17 +17,19 @@ pub(crate) struct Figure {
 impl Figure {
     /// The radius on which the middle of a ball moves: R − r inside, R + r outside.
     pub(crate) fn reach(&self, a: &Algebra, ball: Expr) -> Expr {
-        match self.is_inside {
-            true => a.graph.sub(self.radius, ball),
-            false => a.graph.add(&[self.radius, ball]),
+        if self.is_inside {
+            a.graph.sub(self.radius, ball)
+        } else {
+            a.graph.add(&[self.radius, ball])
         }
     }
 
     /// A vector that points away from the middle of the surface, as one towards the ball.
     pub(crate) fn towards(&self, a: &Algebra, outward: Vector) -> Vector {
-        match self.is_inside {
-            true => a.minus(a.zero(), outward),
-            false => outward,
+        if self.is_inside {
+            a.minus(a.zero(), outward)
+        } else {
+            outward
         }
     }
 }

@@ -82,9 +82,10 @@ impl<'r> Lowering<'r> {
         let excess = a.graph.sub(a.dot(away, away), a.graph.powi(reach, 2));
         let double = a.graph.mul(&[a.graph.integer(2), reach]);
         let height = a.graph.div(excess, double);
-        let height = match figure.is_inside {
-            true => a.graph.neg(height),
-            false => height,
+        let height = if figure.is_inside {
+            a.graph.neg(height)
+        } else {
+            height
         };
         self.assume_positive(reach, raw.place);
         let found = self.slip_on(&name, ball, middle, normal, object.place);

@@ -185,9 +185,10 @@ impl<'r> Lowering<'r> {
                 None => up,
             };
             let column = self.axes(GROUND, frame).map(|row| row[axis]);
-            *own = match is_backward {
-                true => self.algebra.minus(self.algebra.zero(), column),
-                false => column,
+            *own = if is_backward {
+                self.algebra.minus(self.algebra.zero(), column)
+            } else {
+                column
             };
         }
         let a = &self.algebra;
@@ -423,9 +424,12 @@ impl<'r> Lowering<'r> {
 
     /// A sum without what acts on it, or on its opposite side.
     fn less(&self, sum: [Vector; 2], own: [Vector; 2], is_on_it: bool) -> [Vector; 2] {
-        [0, 1].map(|i| match is_on_it {
-            true => self.algebra.minus(sum[i], own[i]),
-            false => self.algebra.plus(sum[i], own[i]),
+        [0, 1].map(|i| {
+            if is_on_it {
+                self.algebra.minus(sum[i], own[i])
+            } else {
+                self.algebra.plus(sum[i], own[i])
+            }
         })
     }
 
