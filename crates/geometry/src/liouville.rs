@@ -242,13 +242,13 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     if !is_open || cx.is_out_of_time() || !says_more_as_stated(cx) {
         return Ok(general);
     }
-    let (texts, valued) = match at_a_condition(cx) {
-        Some(found) => found,
-        None => match at_stated_values(cx, counted_for_all) {
-            Some((texts, Ok(valued))) => (texts, valued),
-            _ => return Ok(general),
-        },
+    let Some((texts, Ok(valued))) = at_stated_values(cx, counted_for_all) else {
+        return Ok(general);
     };
+    // Where the integrals do not suffice for the values they do not for more.
+    let suffice = matches!(valued, Verdict::Proved(_));
+    let wider = suffice.then(|| at_a_condition(cx)).flatten();
+    let (texts, valued) = wider.unwrap_or((texts, valued));
     let as_stated = format!("for {texts}, as the model states, ");
     let otherwise = format!("for arbitrary values {}", general.detail());
     Ok(match valued {

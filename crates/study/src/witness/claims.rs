@@ -31,7 +31,7 @@ const COARSE: f64 = 1e-2;
 /// A change of the action beyond this part of its terms, and beyond the error of the steps, is one.
 const SMALL: f64 = 1e-6;
 /// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
-const CLEARLY: f64 = 1e-3;
+pub(super) const CLEARLY: f64 = 1e-3;
 
 pub(super) fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
     let applies = evidence(cx).is_some() && cx.terms.order == 1;
