@@ -5,6 +5,7 @@ use crate::functional::Problem;
 use crate::variation::{Variation, VariationError};
 use chetaev_model::decision::full_id;
 use chetaev_symbolic::syntax::names::closest;
+use chetaev_symbolic::Verdict;
 
 /// A claim about a functional with its verdict.
 pub type Decided = chetaev_model::decision::Decided<Finding>;
@@ -96,6 +97,10 @@ fn decided(
             .iter()
             .find(|(name, _)| name == claim.id())
     });
+    // What a file expects of general parameters it does not expect of values laid over them.
+    let is_of_others = !cx.problem.text.overrides.is_empty()
+        && matches!(finding.verdict, Verdict::NotApplicable { .. });
+    let of_all = of_all.filter(|_| !is_of_others);
     Decided {
         claim: claim.id(),
         subject,

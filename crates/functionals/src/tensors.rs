@@ -138,6 +138,11 @@ pub struct Scope {
 }
 
 impl Names for Scope {
+    fn is_zero(&self, scalar: &Node) -> bool {
+        let value = self.value(scalar, &Places::new());
+        self.space.graph.is_zero(value)
+    }
+
     fn rank(&self, name: &str) -> Option<usize> {
         if self.sizes.contains_key(name) || name == "pi" {
             return Some(0);

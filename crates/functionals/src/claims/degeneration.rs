@@ -43,6 +43,9 @@ impl Claim for Degeneration {
         });
         match found {
             Some((other, values)) => {
+                if let Some(stated) = other_value(cx.functional(), values) {
+                    return Verdict::not_applicable("parameters", stated).into();
+                }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();
                 let how = format!("with {}", told.join(", "));
                 compared(cx.functional(), other, &how, &|e| {
@@ -53,6 +56,22 @@ impl Claim for Degeneration {
             None => Verdict::undecided("there is no such degeneration").into(),
         }
     }
+}
+
+/// The value that is stated for a parameter for which another one is to be put in.
+pub(super) fn other_value(functional: &Functional, values: &[Special]) -> Option<String> {
+    let g = &functional.space.graph;
+    let stated = functional.values();
+    let pairs = values.iter().flat_map(|special| match &special.what {
+        SpecialKind::Symbols(pairs) => pairs.as_slice(),
+        SpecialKind::Function { .. } => &[],
+    });
+    let mut other = pairs.filter_map(|(symbol, special)| {
+        let (_, value) = stated.iter().find(|(own, _)| own == symbol)?;
+        let differs = !g.is_zero(g.sub(*value, *special));
+        differs.then(|| format!("{} = {} is stated", g.text(*symbol), g.text(*value)))
+    });
+    other.next()
 }
 
 /// An expression with special values.

@@ -1,6 +1,6 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
-use super::degeneration::put_in;
+use super::degeneration::{other_value, put_in};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
@@ -42,6 +42,9 @@ impl Claim for Stated {
         let own = all.find(|solution| Some(solution.name.as_str()) == subject);
         match (own, &cx.variation) {
             (Some(own), Ok(variation)) => {
+                if let Some(stated) = other_value(cx.functional(), &own.values) {
+                    return Verdict::not_applicable("parameters", stated).into();
+                }
                 let inserted = Inserted {
                     functional: cx.functional(),
                     solution: own,

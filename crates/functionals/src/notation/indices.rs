@@ -260,12 +260,14 @@ fn of_product(
             letters.sums = letters
                 .sums
                 .max(scalar(factor, "a divisor", names, problems));
-            if matches!(&factor.kind, Kind::Number(n) if *n == Rational::ZERO) {
-                problems.push(Diagnostic::error(
-                    "division-by-zero",
-                    factor.span,
-                    "division by zero",
-                ));
+            let is_written = matches!(&factor.kind, Kind::Number(n) if *n == Rational::ZERO);
+            let message = if is_written {
+                "division by zero"
+            } else {
+                "division by zero for the values that the model states"
+            };
+            if is_written || (problems.is_empty() && names.is_zero(factor)) {
+                problems.push(Diagnostic::error("division-by-zero", factor.span, message));
             }
             continue;
         }

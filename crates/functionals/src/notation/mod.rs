@@ -74,6 +74,10 @@ pub struct Node {
 
 /// What names mean, as far as reading needs it.
 pub trait Names {
+    /// Whether a scalar without free indices vanishes identically, as far as the values of names are known.
+    fn is_zero(&self, _scalar: &Node) -> bool {
+        false
+    }
     /// The rank of a tensor of this name, 0 for scalars and parameters; `None` where there is no such name.
     fn rank(&self, name: &str) -> Option<usize>;
     /// Whether the name is a constitutive function, and the rank of its argument.

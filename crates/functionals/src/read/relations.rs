@@ -1,6 +1,6 @@
 //! Relations to other functionals, each read from its own file onto the same symbols.
 
-use super::declare::{place_holders, shape_of};
+use super::declare::{constants, place_holders, shape_of};
 use super::Reader;
 use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
@@ -204,7 +204,12 @@ impl Reader<'_> {
         let letters = free_letters(&left);
         let right = self.node(&scope, &text, Some(&letters))?;
         let g = &scope.space.graph;
-        let left = functional.scope.components(&left, &letters);
+        // A parameter whose value is stated is still the one that is meant.
+        let mut general = functional.scope.clone();
+        for parameter in functional.parameters.iter().filter(|p| p.value.is_some()) {
+            constants(&mut general, &parameter.name, parameter.shape);
+        }
+        let left = general.components(&left, &letters);
         let right = scope.components(&right, &letters);
         let mut pairs: BTreeMap<_, _> = BTreeMap::new();
         for (l, r) in left.into_iter().zip(right) {

@@ -11,3 +11,4 @@ mod mutants;
 mod noether;
 mod reference;
 mod table;
+mod values;

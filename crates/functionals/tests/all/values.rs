@@ -1,0 +1,59 @@
+//! Values that a model states for parameters: what is said is said of the functional with them.
+
+use crate::table::{read_text, row_text, studied, studied_text};
+use chetaev_model::Style;
+
+/// A rod of stiffness E that a load F draws, held at both ends: u,xx + F/E = 0, with l = 2, E = F = 1 by u = x - x²/2, of value -1/3.
+fn rod(stiffness: &str, value: &str) -> String {
+    format!(
+        "kind = \"functional\"\nname = \"rod\"\ndensity = \"E/2 u,x^2 - F u\"\nyields = [\"a\"]\n\
+         [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, \"l\"] }}\n[fields]\nu = \"scalar\"\n\
+         [parameters]\nl = \"2\"\nE = \"{stiffness}\"\nF = \"1\"\n\
+         [boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = l\" = {{ fixed = [\"u\"] }}\n\
+         [equations]\na = \"u,xx + F/E = 0\"\n\
+         [solutions.s]\nvalue = \"{value}\"\nfields = {{ u = \"x - x^2/2\" }}\n"
+    )
+}
+
+fn word(study: &chetaev_functionals::Study, claim: &str) -> &'static str {
+    let mut all = study.verdicts.iter();
+    let found = all.find(|d| d.claim == claim);
+    found.map_or("not there", |d| d.finding.verdict.word())
+}
+
+#[test]
+fn a_solution_is_that_of_the_values_stated() {
+    let right = studied_text("p4p", &rod("1", "-1/3"), &[]);
+    assert_eq!(word(&right, "functional.euler"), "proved");
+    assert_eq!(word(&right, "functional.solution"), "proved");
+    let wrong = studied_text("p4p", &rod("1", "-1/2"), &[]);
+    assert_eq!(word(&wrong, "functional.solution"), "refuted");
+    // Twice as stiff it goes half as far.
+    let stiff = studied_text("p4p", &rod("2", "-1/3"), &[]);
+    assert_eq!(word(&stiff, "functional.euler"), "proved");
+    assert_eq!(word(&stiff, "functional.solution"), "refuted");
+}
+
+#[test]
+fn a_stiffness_of_zero_divides_nothing() {
+    let loaded = read_text("p4p", &rod("0", "0"), &[]);
+    assert!(loaded.problem.is_none());
+    let told = loaded.diagnostics.render(Style::Plain);
+    assert!(told.contains("zero"), "{told}");
+}
+
+/// With β = 1 the equation of the stress is 0 = 0, and with β = 0 that of the strain (T4 §3: any β but 0 and 1): the Euler equations
+/// are fewer than those stated.
+#[test]
+fn splits_that_split_nothing_are_not_proved() {
+    let d = ("d", "1");
+    let divided = read_text("p4pb", &row_text("p4pb"), &[d, ("beta", "1")]);
+    assert!(divided.problem.is_none());
+    for (row, beta) in [("p2pb", "1"), ("p3pb", "0")] {
+        let singular = studied(row, &[d, ("beta", beta)]);
+        assert_ne!(word(&singular, "functional.euler"), "proved", "{row}");
+        let regular = studied(row, &[d, ("beta", "1/3")]);
+        assert_eq!(word(&regular, "functional.euler"), "proved", "{row}");
+        assert!(regular.is_as_expected(), "{row}");
+    }
+}
