@@ -2,7 +2,7 @@
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::robot::Robot;
+use crate::robot::{line, Robot};
 
 /// Largest text, in bytes.
 const MOST_BYTES: usize = 16 << 20;
@@ -118,11 +118,6 @@ fn end_of_tag(tag: &str) -> Option<usize> {
         }
     }
     None
-}
-
-/// The line of an element.
-pub(crate) fn line(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
 }
 
 /// The first child of a name.

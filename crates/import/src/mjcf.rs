@@ -7,9 +7,9 @@ use std::collections::HashMap;
 
 use roxmltree::Node;
 
-use crate::document::{line, note_others, numbers, one, required, three, ImportError};
+use crate::document::{note_others, numbers, one, required, three, ImportError};
 use crate::numbers::{of_quaternion, turned, Rotation, STILL};
-use crate::robot::{Body, Gear, Joint, Kind, Robot};
+use crate::robot::{line, Body, Gear, Joint, Kind, Robot};
 
 /// How angles are written.
 #[derive(Clone, Copy)]

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use roxmltree::Node;
 
-use crate::document::line;
 use crate::numbers::{Rotation, Vector};
 use crate::Note;
 
@@ -171,4 +170,9 @@ impl Robot {
         }
         own
     }
+}
+
+/// The line of an element.
+pub(crate) fn line(node: Node<'_, '_>) -> u32 {
+    node.document().text_pos_at(node.range().start).row
 }

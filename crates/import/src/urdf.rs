@@ -204,7 +204,7 @@ fn mimic(robot: &mut Robot, node: Node<'_, '_>, names: &Names) -> Result<(), Imp
 
 fn missing(node: Node<'_, '_>, what: &str) -> ImportError {
     ImportError::Missing {
-        line: crate::document::line(node),
+        line: crate::robot::line(node),
         element: node.tag_name().name().to_owned(),
         missing: what.to_owned(),
     }

@@ -11,6 +11,7 @@ use super::lowering::{FrameId, Lowering, GROUND};
 use super::objects::KeptReaction;
 use super::reading::Object;
 use super::sections::{table, text};
+use super::springs::Spring;
 use super::touching::Found;
 use super::tree::ContactStated;
 use crate::diagnostic::Diagnostic;
@@ -37,12 +38,6 @@ pub(crate) struct End<'r> {
     pub(crate) name: &'r str,
     pub(crate) frame: FrameId,
     pub(crate) at: Vector,
-}
-
-/// A stiffness with the value of the coordinate at which a spring is at rest.
-pub(crate) struct Spring {
-    pub(crate) stiffness: Expr,
-    pub(crate) rest: Option<Expr>,
 }
 
 /// A law of friction: −(c + μ N/√(v² + s²)) v.

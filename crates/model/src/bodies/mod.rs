@@ -29,6 +29,7 @@ mod sections;
 mod sensors;
 mod shapes;
 mod solids;
+mod springs;
 mod surfaces;
 mod touching;
 mod tree;

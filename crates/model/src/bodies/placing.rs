@@ -3,12 +3,12 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::{Turn, Vector};
-use super::forces::Spring;
 use super::joints::{Freedom, Motion};
 use super::lowering::{FrameId, Lowering, Step, GROUND};
 use super::reading::Object;
 use super::sections::word;
 use super::shapes::Outline;
+use super::springs::Spring;
 use super::tree::{JointStated, Tree};
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw};

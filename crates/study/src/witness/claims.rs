@@ -1,7 +1,7 @@
 //! The claims: each compares integrals over the motion with what the proofs say.
 
 use super::first::Form;
-use super::refined::Refined;
+use super::refined::{Refined, CLEARLY};
 use super::{evidence, first, kappa, linear, neighbours, refined};
 use crate::motion_claims::of_another_system;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
@@ -30,8 +30,6 @@ const ROUNDING: f64 = 1e-8;
 const COARSE: f64 = 1e-2;
 /// A change of the action beyond this part of its terms, and beyond the error of the steps, is one.
 const SMALL: f64 = 1e-6;
-/// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
-pub(super) const CLEARLY: f64 = 1e-3;
 
 pub(super) fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
     let applies = evidence(cx).is_some() && cx.terms.order == 1;

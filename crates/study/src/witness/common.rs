@@ -1,6 +1,6 @@
 //! What several witnesses need at the rows of the motion, compiled and evaluated once.
 
-use super::claims::CLEARLY;
+use super::refined::CLEARLY;
 use super::samples::{rows, Samples};
 use super::states::{States, APART};
 use chetaev_mechanics::claims::formulation::basis;

@@ -20,6 +20,8 @@ pub struct Refined {
     pub variations: u32,
 }
 
+/// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
+pub(super) const CLEARLY: f64 = 1e-3;
 /// Variations of each integral.
 pub(super) const VARIATIONS: usize = 4;
 /// Steps: so many times the distance of rows.
