@@ -7,9 +7,9 @@ pub fn number(x: f64) -> String {
     significant(x, 6)
 }
 
-/// A number to nine digits, where six would not tell two events apart.
+/// A number to ten digits, where six would not tell two events apart.
 pub fn precise_number(x: f64) -> String {
-    significant(x, 9)
+    significant(x, 10)
 }
 
 fn significant(x: f64, digits: usize) -> String {
