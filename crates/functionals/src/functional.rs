@@ -358,4 +358,19 @@ pub struct Problem {
     pub text: ModelText,
     /// Verdicts that the file expects: claim with subject, and the words that are accepted.
     pub expected: Vec<(String, Vec<String>)>,
+    /// The same with the values that are stated for parameters, where there are some: claims are decided of it, as what is true of general
+    /// ones may be false of these.
+    pub valued: Option<Box<Problem>>,
+}
+
+impl Problem {
+    /// Whether values are stated for parameters.
+    pub fn has_values(&self) -> bool {
+        self.functional.parameters.iter().any(|p| p.value.is_some())
+    }
+
+    /// What claims are decided of.
+    pub fn of_claims(&self) -> &Problem {
+        self.valued.as_deref().unwrap_or(self)
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::claims::{Claim, Context, Finding, CLAIMS};
 use crate::functional::Problem;
-use crate::variation::{Variation, VariationError};
+use crate::variation::{variation, Variation, VariationError};
 use chetaev_model::decision::full_id;
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::Verdict;
@@ -61,14 +61,20 @@ impl Study {
 /// Decides every claim that `wants` accepts by its id; `clock` gives seconds.
 pub fn study(problem: Problem, wants: &dyn Fn(&str) -> bool, clock: &dyn Fn() -> f64) -> Study {
     let (verdicts, variation) = {
-        let cx = Context::new(&problem);
+        let cx = Context::new(problem.of_claims());
         let mut verdicts = Vec::new();
         for claim in CLAIMS.iter().filter(|claim| wants(claim.id())) {
             for subject in claim.subjects(&cx) {
                 verdicts.push(decided(*claim, &cx, subject, clock));
             }
         }
-        (verdicts, cx.variation)
+        let written = problem.valued.is_some();
+        let variation = if written {
+            variation(&problem.functional)
+        } else {
+            cx.variation
+        };
+        (verdicts, variation)
     };
     let mut study = Study {
         problem,

@@ -282,8 +282,7 @@ impl Reader<'_> {
             constants(scope, &key.content, shape);
             let value = self.override_of(&key.content).or(value);
             let value = value.and_then(|text| self.scalar(scope, &text));
-            // What is said is said of the functional with the values stated: general ones may be regular where these are not.
-            if let (Some(value), Shape::Scalar) = (value, shape) {
+            if let (Some(value), Shape::Scalar, true) = (value, shape, self.puts_in_values) {
                 place_holders(scope, &key.content, shape, &[value]);
             }
             found.push(Parameter {

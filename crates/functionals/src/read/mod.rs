@@ -73,6 +73,7 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         text: tables.text,
         overrides: tables.overrides,
         used: Vec::new(),
+        puts_in_values: false,
     };
     let place = Place {
         source: tables.source,
@@ -80,8 +81,11 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     };
     let problem = match tables.table {
         Some(table) => {
-            let problem = reader.problem(&table, place);
+            let mut problem = reader.problem(&table, place);
             reader.unused_overrides();
+            if let Some(own) = problem.as_mut().filter(|own| own.has_values()) {
+                own.valued = reader.with_values(&table, place).map(Box::new);
+            }
             problem
         }
         None => None,
@@ -113,9 +117,25 @@ struct Reader<'f> {
     text: ModelText,
     overrides: Vec<(Text, Text)>,
     used: Vec<String>,
+    /// Whether scalar parameters are their values, where these are stated.
+    puts_in_values: bool,
 }
 
 impl Reader<'_> {
+    /// The problem with the values that are stated for parameters; what is wrong with these alone is added.
+    fn with_values(&mut self, table: &Table, place: Place) -> Option<Problem> {
+        let told = std::mem::take(&mut self.problems);
+        self.puts_in_values = true;
+        let problem = self.problem(table, place);
+        let own = std::mem::replace(&mut self.problems, told);
+        let errors = own.into_iter();
+        let errors: Vec<Diagnostic> = errors
+            .filter(|d| d.severity == chetaev_model::Severity::Error)
+            .collect();
+        self.problems.extend(errors);
+        problem
+    }
+
     fn problem(&mut self, table: &Table, place: Place) -> Option<Problem> {
         let functional = self.functional(table, place, None)?;
         let relations = self.relations(table, &functional);
@@ -131,6 +151,7 @@ impl Reader<'_> {
             family,
             text: self.text.clone(),
             expected,
+            valued: None,
         })
     }
 

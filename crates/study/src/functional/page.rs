@@ -54,7 +54,7 @@ fn report(study: &Study, command: Option<String>) -> Report {
         sections: sections(study),
         figures: pictures::figures(study),
         maps: pictures::maps(study),
-        claims: study.verdicts.iter().map(|d| claim(f, d)).collect(),
+        claims: claims(study),
         model: Some(source(&study.problem.text)),
         notices: study.notices.clone(),
         reproducibility: Reproducibility {
@@ -375,6 +375,12 @@ fn step(f: &Functional, shown: &chetaev_functionals::claims::Formula) -> Equatio
             ..equation(f, String::new(), shown.value)
         },
     }
+}
+
+/// Claims with the formulas of what they are decided of.
+fn claims(study: &Study) -> Vec<Claim> {
+    let f = &study.problem.of_claims().functional;
+    study.verdicts.iter().map(|d| claim(f, d)).collect()
 }
 
 fn claim(f: &Functional, decided: &Decided) -> Claim {

@@ -37,7 +37,7 @@ pub fn record(study: &Study, claims: &[String], files: &[WrittenRecord]) -> Reco
 }
 
 fn verdict(study: &Study, decided: &Decided) -> VerdictRecord {
-    let g = &study.problem.functional.space.graph;
+    let g = &study.problem.of_claims().functional.space.graph;
     let mut record = VerdictRecord {
         claim: decided.claim.into(),
         subject: decided.subject.clone(),
