@@ -8,6 +8,10 @@
 //! that do not raise the order. Before something is said not to follow, the others are taken too, up to [`Solved::highest`]: what
 //! follows by differentiation and elimination is no counterexample, and where conditions beyond that order are left nothing is refuted.
 //!
+//! Which jet of an equation is solved for is chosen by what it costs, not by a ranking of all jets (C. Riquier 1910), so that rules may
+//! lead back to each other. Such a circle is cut where it closes: what is proved remains so, since a rule that is not used takes nothing
+//! away, but what is left over is no normal form, and nothing is refuted with it.
+//!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
@@ -18,7 +22,7 @@ use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
 use chetaev_symbolic::{Expr, Node, Verdict};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -47,6 +51,10 @@ pub struct Solved<'s> {
     is_cut: bool,
     prolonged: RefCell<Option<Rc<Solved<'s>>>>,
     known: RefCell<BTreeMap<Jet, Expr>>,
+    /// The jets whose values are being computed, each for that of the one before.
+    open: RefCell<Vec<Jet>>,
+    /// Whether rules led back to each other.
+    is_circular: Cell<bool>,
     judged: RefCell<BTreeMap<Expr, bool>>,
     /// Equations that are left, with their labels.
     pub left: Vec<Group>,
@@ -130,6 +138,8 @@ impl<'s> Solved<'s> {
             is_cut: false,
             prolonged: RefCell::default(),
             known: RefCell::default(),
+            open: RefCell::default(),
+            is_circular: Cell::new(false),
             judged: RefCell::default(),
             left: Vec::new(),
             pivots: Vec::new(),
@@ -232,6 +242,9 @@ impl<'s> Solved<'s> {
                 self.rule(&jet)?;
                 Some(self.value(&jet))
             });
+            if self.is_circular() {
+                return e;
+            }
         }
         e
     }
@@ -250,12 +263,34 @@ impl<'s> Solved<'s> {
         if let Some(&known) = self.known.borrow().get(jet) {
             return known;
         }
+        let own = self.space.jet(jet.component, &jet.by);
         let value = match self.rule(jet) {
-            Some((rule, rest)) => self.normal(self.derived(rule, &rest)),
-            None => self.space.jet(jet.component, &jet.by),
+            Some(_) if self.closes_circle(jet) => {
+                self.is_circular.set(true);
+                return own;
+            }
+            Some((rule, rest)) => {
+                self.open.borrow_mut().push(jet.clone());
+                let value = self.normal(self.derived(rule, &rest));
+                self.open.borrow_mut().pop();
+                value
+            }
+            None => own,
         };
         self.known.borrow_mut().insert(jet.clone(), value);
         value
+    }
+
+    /// Whether the value of a jet is needed for itself, or for a jet of so much lower order that orders rise without end.
+    fn closes_circle(&self, jet: &Jet) -> bool {
+        let open = self.open.borrow();
+        let has_risen = |first: &Jet| jet.by.len() > first.by.len() + self.highest();
+        open.contains(jet) || open.first().is_some_and(has_risen)
+    }
+
+    /// Whether rules led back to each other, so that nothing can be refuted.
+    pub fn is_circular(&self) -> bool {
+        self.is_circular.get()
     }
 
     /// What a rule gives for a derivative of its jet.
@@ -336,6 +371,7 @@ impl<'s> Solved<'s> {
                 "",
                 "it is a multiple of an equation that holds, by a factor without fields",
             )),
+            _ if self.is_circular() => circular(),
             _ => match self.contradicted(self.space.explicit(own)) {
                 Verdict::Refuted(found) => self.confirmed(e, found),
                 other => other,
@@ -370,6 +406,7 @@ impl<'s> Solved<'s> {
                     "it is a multiple of a condition of integrability",
                 ))
             }
+            _ if full.is_circular() => return circular(),
             _ => {}
         }
         let is_settled = self
@@ -423,6 +460,9 @@ impl<'s> Solved<'s> {
     fn solve(&mut self) {
         let mut undone: BTreeSet<(String, String)> = BTreeSet::new();
         for _ in 0..MOST_ROUNDS {
+            if self.is_circular() {
+                return;
+            }
             let mut groups = std::mem::take(&mut self.left);
             for group in &mut groups {
                 for e in &mut group.equations {
@@ -742,7 +782,7 @@ impl<'s> Solved<'s> {
                 if undone.contains(&(group.label.clone(), own.name.clone())) {
                     continue;
                 }
-                let Some(conjugate) = own.conjugate else {
+                let Some(conjugate) = space.undoing(function) else {
                     continue;
                 };
                 let gradient = space.gradient(function, &arguments);
@@ -801,6 +841,14 @@ impl<'s> Solved<'s> {
             .filter(|c| !has_rule(c))
             .collect()
     }
+}
+
+/// What is said where rules lead back to each other.
+fn circular() -> Verdict {
+    Verdict::undecided(
+        "it does not follow from the equations as they were solved; their conditions of integrability give derivatives by each other in a \
+         circle, so that no counterexample was confirmed",
+    )
 }
 
 /// By what the second derivative has to be differentiated so that it contains the first.

@@ -17,6 +17,7 @@
 
 pub mod boundary;
 pub mod claims;
+mod conjugation;
 pub mod elimination;
 pub mod functional;
 pub mod integral;

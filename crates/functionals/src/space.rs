@@ -92,6 +92,8 @@ pub struct Space {
     jets: RefCell<BTreeMap<Symbol, Jet>>,
     applications: RefCell<BTreeMap<Symbol, Application>>,
     known: RefCell<BTreeMap<Application, Expr>>,
+    /// Whether pairs of functions are conjugates by their formulas; nothing where one has none.
+    conjugations: RefCell<BTreeMap<(usize, usize), Option<Verdict>>>,
     /// The normal, and the distance from the boundary, inwards negative.
     normal: Vec<Symbol>,
     distance: Symbol,
@@ -138,6 +140,7 @@ impl Space {
             jets: RefCell::default(),
             applications: RefCell::default(),
             known: RefCell::default(),
+            conjugations: RefCell::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }
@@ -257,6 +260,24 @@ impl Space {
         self.bodies
             .borrow_mut()
             .insert(function, Rule { slots, values });
+        self.conjugations.borrow_mut().clear();
+        self.known.borrow_mut().clear();
+    }
+
+    /// What `decide` says of a pair of functions, asked once; while it is asked, nothing is known of the pair.
+    pub(crate) fn decided_once(
+        &self,
+        pair: (usize, usize),
+        decide: &dyn Fn() -> Option<Verdict>,
+    ) -> Option<Verdict> {
+        if let Some(known) = self.conjugations.borrow().get(&pair) {
+            return known.clone();
+        }
+        let open = Verdict::undecided("the functions are stated by each other");
+        self.conjugations.borrow_mut().insert(pair, Some(open));
+        let decided = decide();
+        self.conjugations.borrow_mut().insert(pair, decided.clone());
+        decided
     }
 
     /// The stated value of a function, differentiated by slots and applied.
@@ -415,10 +436,11 @@ impl Space {
     /// `B'(A'(X)) = X` and `B(A'(X)) = X A'(X) − A(X)` for Legendre conjugates.
     fn conjugated(&self, application: &Application) -> Option<Expr> {
         let function = self.function_at(application.function);
-        let conjugate = function.conjugate?;
+        function.conjugate?;
         if application.by.len() > 1 {
             return None;
         }
+        let conjugate = self.undoing(application.function)?;
         let inner = self.inverse_image(conjugate, &application.arguments)?;
         let g = &self.graph;
         match application.by[..] {
@@ -686,17 +708,17 @@ impl Space {
         found
     }
 
-    /// The first derivatives of functions with a conjugate that occur: function and arguments.
+    /// The first derivatives of functions that a conjugate undoes and that occur: function and arguments.
     pub(crate) fn gradients_in(&self, es: &[Expr]) -> Vec<(usize, Vec<Expr>)> {
         let mut found: Vec<(usize, Vec<Expr>)> = Vec::new();
         for symbol in self.graph.symbols_in(es) {
-            let applications = self.applications.borrow();
-            let Some(own) = applications.get(&symbol) else {
+            let application = self.applications.borrow().get(&symbol).cloned();
+            let Some(own) = application else {
                 continue;
             };
-            let has_conjugate = self.functions.borrow()[own.function].conjugate.is_some();
-            let pair = (own.function, own.arguments.clone());
-            if own.by.len() == 1 && has_conjugate && !found.contains(&pair) {
+            let is_undone = own.by.len() == 1 && self.undoing(own.function).is_some();
+            let pair = (own.function, own.arguments);
+            if is_undone && !found.contains(&pair) {
                 found.push(pair);
             }
         }

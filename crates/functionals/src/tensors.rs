@@ -347,7 +347,8 @@ impl Scope {
             0 => vec![0; atom.primes as usize],
             rank => indices.chunks(rank).map(|one| slot(rank, one, d)).collect(),
         };
-        let is_opaque = own.conjugate.is_some();
+        // Of functions that undo each other nothing but that is used; of others the formula.
+        let is_opaque = own.conjugate.is_some() && self.space.undoing(function).is_some();
         let stated = if is_opaque {
             None
         } else {

@@ -3,7 +3,7 @@
 use super::modulo::{all_subsets as subsets, labels};
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Equation, Functional, Role};
+use crate::functional::{Constitutive, Equation, Functional, Role};
 use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -265,11 +265,14 @@ impl<'f> Comparison<'f> {
         Judged {
             what,
             verdict,
-            open: solved
-                .left
-                .iter()
-                .map(|group| format!("`{}`", group.label))
-                .collect(),
+            open: match solved.is_circular() {
+                true => Vec::new(),
+                false => solved
+                    .left
+                    .iter()
+                    .map(|group| format!("`{}`", group.label))
+                    .collect(),
+            },
         }
     }
 
@@ -329,7 +332,11 @@ impl<'f> Comparison<'f> {
                     } else {
                         other.detail().to_owned()
                     };
-                    return Verdict::undecided(format!("{} was not compared: {why}", own.what));
+                    let unused = self.unrelated();
+                    return Verdict::undecided(format!(
+                        "{} was not compared: {why}{unused}",
+                        own.what
+                    ));
                 }
             }
         }
@@ -354,6 +361,23 @@ impl<'f> Comparison<'f> {
             proof.detail.push_str(&format!(", {more}"));
         }
         Verdict::Proved(proof)
+    }
+
+    /// Functions stated as conjugates whose formulas are not proved to be so: no gradient of them was undone.
+    fn unrelated(&self) -> String {
+        let functional = self.functional;
+        let space = &*functional.space;
+        let is_unrelated =
+            |f: &&Constitutive| f.conjugate.is_some() && space.undoing(f.function).is_none();
+        let own = functional.functions.iter().filter(is_unrelated);
+        let names: Vec<&str> = own.map(|f| f.name.as_str()).collect();
+        match names.is_empty() {
+            true => String::new(),
+            false => format!(
+                "; that {} are Legendre conjugates is not proved (functional.legendre), so that it was not used",
+                names.join(" and ")
+            ),
+        }
     }
 
     /// Fields without derivatives of which the Euler equations leave components free.

@@ -99,3 +99,61 @@ fn a_name_never_means_a_component_of_another_field() {
         );
     }
 }
+
+/// ∫ of a density of second derivatives over a plane region with the free curved edge S, with two conditions stated on it.
+fn free_edge(field: &str, density: &str, interior: &str, edge: [&str; 2]) -> (String, String) {
+    let [moment, force] = edge;
+    verdict(&format!(
+        r#"
+kind = "functional"
+name = "free-edge"
+density = "{density}"
+yields = ["interior", "moment", "force"]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[fields]
+u = "{field}"
+[boundary]
+S = "0"
+[equations]
+interior = "{interior}"
+moment = {{ equation = "{moment}", on = "S" }}
+force = {{ equation = "{force}", on = "S" }}
+"#
+    ))
+}
+
+#[test]
+fn conditions_on_a_free_curved_edge_that_lead_back_to_each_other_are_refuted() {
+    let laplacian = |force: &str| {
+        let density = "1/2 u,ii u,jj";
+        free_edge("scalar", density, "u,iijj = 0", ["u,ii = 0", force])
+    };
+    let (word, detail) = laplacian("n_j u,iij = 0");
+    assert_eq!(word, "proved", "{detail}");
+    let wrong = [
+        laplacian("n_j u,iij + u = 0"),
+        // The conditions without the curvature and the derivative along the edge.
+        free_edge(
+            "scalar",
+            "1/2 u,ij u,ij",
+            "u,iijj = 0",
+            [
+                "n_i n_j u,ij = 0",
+                "n_j u,iij + (n_i delta_jk - n_i n_j n_k) u,ijk = 0",
+            ],
+        ),
+        free_edge(
+            "vector",
+            "1/2 u_i,jk u_i,jk",
+            "u_i,jjkk = 0",
+            ["n_k n_j u_i,jk = 0", "n_j u_k,iij = 0"],
+        ),
+    ];
+    for (word, detail) in wrong {
+        assert_eq!(word, "refuted", "{detail}");
+    }
+}

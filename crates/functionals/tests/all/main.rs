@@ -3,6 +3,7 @@
 
 mod bar;
 mod classical;
+mod conjugates;
 mod curved;
 mod examples;
 mod indexed;

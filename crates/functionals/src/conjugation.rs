@@ -1,0 +1,210 @@
+//! Whether two stated functions are Legendre conjugates.
+//!
+//! A and B are when their gradients undo each other, both ways: `B'(A'(e)) = e` and `A'(B'(s)) = s`, with
+//! `A(e) + B(A'(e)) = A'(e) e`. One way alone is too little: for A = (tr e)²/2 and B = (tr s)²/8 in the plane `A'(B'(A'(e))) = A'(e)`
+//! holds, and the deviator of e is lost. From one way the other follows where the gradient inside is one-to-one: of
+//! `A'(B'(A'(e))) = A'(e)` it then cancels (R. T. Rockafellar, Convex Analysis, 1970, § 26). The gradient of a function whose Hessian
+//! is definite at every place of the whole space is one-to-one.
+
+use crate::space::Space;
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+
+impl Space {
+    /// Whether a function and its conjugate are that by their formulas, decided once; `None` where it has no conjugate, or where one of
+    /// the two has no formula, so that the relation is what is known of it.
+    pub fn conjugation(&self, function: usize) -> Option<Verdict> {
+        let other = self.function_at(function).conjugate?;
+        let pair = (function.min(other), function.max(other));
+        self.decided_once(pair, &|| {
+            let there = self.undone(pair.0, pair.1)?;
+            let back = self.undone(pair.1, pair.0)?;
+            Some(self.both_ways(pair, &there, &back))
+        })
+    }
+
+    /// The conjugate that undoes the gradient of a function: where that is assumed, or proved.
+    pub fn undoing(&self, function: usize) -> Option<usize> {
+        let other = self.function_at(function).conjugate?;
+        match self.conjugation(function) {
+            None | Some(Verdict::Proved(_)) => Some(other),
+            Some(_) => None,
+        }
+    }
+
+    /// `B'(A'(X)) − X` and `A(X) + B(A'(X)) − A'(X) X`, with A and B in this order.
+    fn undone(&self, function: usize, by: usize) -> Option<Vec<Expr>> {
+        let g = &self.graph;
+        let slots = self.slots(function);
+        let multiplicities = self.function_at(function).multiplicities;
+        let gradient: Option<Vec<Expr>> = (0..slots.len())
+            .map(|k| self.body(function, &[k], &slots))
+            .collect();
+        let gradient = gradient?;
+        let mut residuals = Vec::new();
+        for (k, &slot) in slots.iter().enumerate() {
+            residuals.push(g.sub(self.body(by, &[k], &gradient)?, slot));
+        }
+        let mut terms = vec![
+            self.body(function, &[], &slots)?,
+            self.body(by, &[], &gradient)?,
+        ];
+        for ((&x, &y), &m) in slots.iter().zip(&gradient).zip(&multiplicities) {
+            terms.push(g.neg(g.mul(&[g.integer(m), x, y])));
+        }
+        residuals.push(g.add(&terms));
+        Some(residuals)
+    }
+
+    fn both_ways(&self, (a, b): (usize, usize), there: &[Expr], back: &[Expr]) -> Verdict {
+        let name = |function: usize| self.function_at(function).name;
+        let one = |residuals: &[Expr], inner: usize, outer: usize| {
+            let verdict = self.vanishing(residuals, true);
+            match verdict {
+                Verdict::Proved(_) => verdict,
+                _ => verdict.prefixed(&format!(
+                    "the gradient of {} does not undo that of {} by formula",
+                    name(outer),
+                    name(inner)
+                )),
+            }
+        };
+        let (there, back) = (one(there, a, b), one(back, b, a));
+        let detail = format!(
+            "the gradients of {} and {} undo each other, and both functions add up to the product",
+            name(a),
+            name(b)
+        );
+        let on = "all arguments for which both functions are defined";
+        match (there, back) {
+            (Verdict::Proved(one), Verdict::Proved(other)) => {
+                let both = Verdict::Proved(one).and(Verdict::Proved(other));
+                match both {
+                    Verdict::Proved(proof) => Verdict::Proved(Proof {
+                        on: on.into(),
+                        detail,
+                        ..proof
+                    }),
+                    open => open,
+                }
+            }
+            (Verdict::Refuted(found), _) | (_, Verdict::Refuted(found)) => Verdict::Refuted(found),
+            (Verdict::Proved(proof), open) => self.with_convexity(b, proof, open, (on, &detail)),
+            (open, Verdict::Proved(proof)) => self.with_convexity(a, proof, open, (on, &detail)),
+            (one, other) => one.and(other),
+        }
+    }
+
+    /// The proof of both ways from that of one, where the gradient inside of the other way is one-to-one.
+    fn with_convexity(
+        &self,
+        inner: usize,
+        proof: Proof,
+        open: Verdict,
+        (on, detail): (&str, &str),
+    ) -> Verdict {
+        if !self.has_definite_hessian(inner) {
+            return open;
+        }
+        let name = self.function_at(inner).name;
+        Verdict::Proved(Proof {
+            on: on.into(),
+            detail: format!(
+                "{detail}; that of {name} is one-to-one, because its Hessian is definite everywhere"
+            ),
+            ..proof
+        })
+    }
+
+    /// Whether the Hessian is definite on the whole space, by the signs of its leading minors.
+    fn has_definite_hessian(&self, function: usize) -> bool {
+        let g = &self.graph;
+        let slots = self.slots(function);
+        let is_smooth = self
+            .body(function, &[], &slots)
+            .is_some_and(|value| self.is_smooth_everywhere(value));
+        if !is_smooth {
+            return false;
+        }
+        // Rows and columns of the derivatives by a tensor are scaled against those by its unknowns, which no sign of a minor tells.
+        let row = |k: usize| -> Option<Vec<Expr>> {
+            (0..slots.len())
+                .map(|l| self.body(function, &[k, l], &slots))
+                .collect()
+        };
+        let Some(hessian) = (0..slots.len()).map(row).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        let assumptions = Assumptions::new();
+        let is_positive = |factor: i64| {
+            (1..=slots.len()).all(|n| {
+                let minor: Vec<Vec<Expr>> = hessian[..n]
+                    .iter()
+                    .map(|row| {
+                        let own = row[..n].iter();
+                        own.map(|&e| g.mul(&[g.integer(factor), e])).collect()
+                    })
+                    .collect();
+                known_sign(g, determinant(g, &minor), &assumptions).is_positive()
+            })
+        };
+        is_positive(1) || is_positive(-1)
+    }
+
+    /// Whether an expression is defined and smooth for all real values of its symbols, as far as its structure tells.
+    fn is_smooth_everywhere(&self, e: Expr) -> bool {
+        let g = &self.graph;
+        let assumptions = Assumptions::new();
+        let mut open = vec![e];
+        while let Some(e) = open.pop() {
+            let is_smooth = match g.node(e) {
+                Node::Number(_) | Node::Pi => true,
+                Node::Symbol(symbol) => !self.is_application(*symbol),
+                Node::Sum { terms, .. } => {
+                    open.extend(terms.iter().map(|(term, _)| *term));
+                    true
+                }
+                Node::Product { factors, .. } => {
+                    open.extend(factors.iter().copied());
+                    true
+                }
+                Node::Power { base, exponent } => {
+                    open.extend([*base, *exponent]);
+                    let power = g.as_number(*exponent).and_then(|n| rational::to_i64(&n));
+                    power.is_some_and(|n| n >= 0)
+                        || known_sign(g, *base, &assumptions).is_positive()
+                }
+                Node::Apply {
+                    function,
+                    arguments,
+                } => {
+                    open.extend(arguments.iter().copied());
+                    is_smooth_function(*function)
+                }
+                _ => false,
+            };
+            if !is_smooth {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// Whether a function is defined and smooth on the whole line.
+fn is_smooth_function(function: Function) -> bool {
+    matches!(
+        function,
+        Function::Sin
+            | Function::Cos
+            | Function::Atan
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Asinh
+            | Function::Exp
+    )
+}

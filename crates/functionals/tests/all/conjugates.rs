@@ -1,0 +1,125 @@
+//! Functions that are stated as Legendre conjugates and are none: the relation is refuted, and no proof uses it.
+
+use crate::table::studied_text;
+use chetaev_functionals::Study;
+
+/// The functional of Hellinger and Reissner for a body with these two functions.
+fn studied(d: &str, energy: &str, complementary: &str) -> Study {
+    let text = format!(
+        r#"
+kind = "functional"
+name = "hellinger-reissner"
+density = "e_ij s_ij - B(s) - F_k u_k"
+yields = ["material", "balance", "held", "pulled"]
+[sizes]
+d = {d}
+[domain]
+coordinates = "x_i"
+boundary = ["S_u", "S_s"]
+[fields]
+s = "symmetric"
+u = "vector"
+[data]
+F = "vector"
+ubar = {{ kind = "vector", on = "S_u" }}
+Pbar = {{ kind = "vector", on = "S_s" }}
+[functions]
+A = {{ of = "symmetric", conjugate = "B", value = "{energy}" }}
+B = {{ of = "symmetric", conjugate = "A", value = "{complementary}" }}
+[define]
+e_ij = "1/2 (u_i,j + u_j,i)"
+P_k = "n_i s_ik"
+[boundary]
+S_u = "-P_k (u_k - ubar_k)"
+S_s = "-Pbar_k u_k"
+[equations]
+material = "s_ij = A'_ij(e)"
+balance = "s_ik,i + F_k = 0"
+held = {{ equation = "u_k = ubar_k", on = "S_u" }}
+pulled = {{ equation = "P_k = Pbar_k", on = "S_s" }}
+"#
+    );
+    studied_text("p4p", &text, &[])
+}
+
+/// The words of the verdicts on a claim, with what they say.
+fn said(study: &Study, claim: &str) -> Vec<(String, String)> {
+    let own = study.verdicts.iter().filter(|d| d.claim == claim);
+    let of = |d: &chetaev_functionals::Decided| {
+        let verdict = &d.finding.verdict;
+        (verdict.word().to_owned(), verdict.detail().to_owned())
+    };
+    own.map(of).collect()
+}
+
+/// Pairs of which one gradient does not undo the other, although each does so on the values of the other.
+const SINGULAR: &[(&str, &str, &str)] = &[
+    // The deviator alone: the mean stress stays free of the strain.
+    (
+        "2",
+        "(X_11 - X_22)^2/4 + X_12^2",
+        "(X_11 - X_22)^2/4 + X_12^2",
+    ),
+    // The trace alone.
+    ("2", "X_ii X_jj/2", "X_ii X_jj/8"),
+    // One component alone.
+    ("2", "X_11^2/2", "X_11^2/2"),
+    // Nothing at all.
+    ("1", "0", "0"),
+    ("1", "X_11", "0"),
+    // A square root undoes a square for positive strains only: e = −1 has s = 1, and B'(1) = 1.
+    ("1", "X_11^3/3", "2/3 X_11^(3/2)"),
+];
+
+#[test]
+fn a_singular_pair_is_refuted_and_proves_nothing() {
+    for (d, energy, complementary) in SINGULAR {
+        let study = studied(d, energy, complementary);
+        let relations = said(&study, "functional.legendre");
+        assert_eq!(relations.len(), 2);
+        for (word, detail) in relations {
+            assert_eq!(word, "refuted", "{energy}: {detail}");
+        }
+        for (word, detail) in said(&study, "functional.euler") {
+            assert_eq!(word, "refuted", "{energy}: {detail}");
+        }
+    }
+}
+
+#[test]
+fn a_regular_pair_is_proved_by_formula_or_by_a_definite_hessian() {
+    let pairs = [
+        ("2", "X_ij X_ij", "X_ij X_ij/4"),
+        ("1", "X_11^4/4 + X_11^2/2 - X_11^4/4", "X_11^2/2"),
+        // sinh and asinh; exp and log.
+        (
+            "2",
+            "sum_ij(cosh(X_ij) - 1)",
+            "sum_ij(X_ij asinh(X_ij) - sqrt(1 + X_ij^2) + 1)",
+        ),
+        ("1", "exp(X_11)", "X_11 log(X_11) - X_11"),
+    ];
+    for (d, energy, complementary) in pairs {
+        let study = studied(d, energy, complementary);
+        let claims = ["functional.legendre", "functional.euler"];
+        for (word, detail) in claims.iter().flat_map(|claim| said(&study, claim)) {
+            assert_eq!(word, "proved", "{energy}: {detail}");
+        }
+    }
+}
+
+#[test]
+fn a_hessian_that_is_definite_off_a_gap_proves_nothing() {
+    // A' = X − 1/X has two values of X for each of its own, although A'' = 1 + 1/X² is positive.
+    let study = studied(
+        "1",
+        "X_11^2/2 - log(X_11^2)/2",
+        "X_11^2/4 + X_11 sqrt(X_11^2 + 4)/4 + asinh(X_11/2)",
+    );
+    for (word, detail) in said(&study, "functional.legendre") {
+        assert_ne!(word, "proved", "{detail}");
+    }
+    for (word, detail) in said(&study, "functional.euler") {
+        assert_ne!(word, "proved", "{detail}");
+    }
+}
