@@ -173,7 +173,7 @@ impl Space {
                 }
                 Node::Power { base, exponent } => {
                     open.extend([*base, *exponent]);
-                    let power = g.as_number(*exponent).and_then(|n| rational::to_i64(&n));
+                    let power = g.as_number(*exponent).and_then(rational::to_i64);
                     power.is_some_and(|n| n >= 0)
                         || known_sign(g, *base, &assumptions).is_positive()
                 }

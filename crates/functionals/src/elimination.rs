@@ -124,6 +124,9 @@ const PLAIN_DATA: u8 = 7;
 /// Most rounds; each solves one group or changes its form.
 const MOST_ROUNDS: usize = 200;
 
+/// How often the value of a jet may need that of a derivative of it, one for the other, before this is called a circle.
+const MOST_RISES: usize = 3;
+
 impl<'s> Solved<'s> {
     /// Nothing solved yet.
     pub fn new(space: &'s Space) -> Solved<'s> {
@@ -281,11 +284,13 @@ impl<'s> Solved<'s> {
         value
     }
 
-    /// Whether the value of a jet is needed for itself, or for a jet of so much lower order that orders rise without end.
+    /// Whether the value of a jet is needed for itself, or again and again for derivatives of itself: of infinitely many jets of finitely
+    /// many components there are always such (L. E. Dickson 1913), so that every chain of rules without an end is met.
     fn closes_circle(&self, jet: &Jet) -> bool {
         let open = self.open.borrow();
-        let has_risen = |first: &Jet| jet.by.len() > first.by.len() + self.highest();
-        open.contains(jet) || open.first().is_some_and(has_risen)
+        let is_below =
+            |own: &&Jet| own.component == jet.component && rest(&jet.by, &own.by).is_some();
+        open.contains(jet) || open.iter().filter(is_below).count() > MOST_RISES
     }
 
     /// Whether rules led back to each other, so that nothing can be refuted.

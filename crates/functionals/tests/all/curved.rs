@@ -136,7 +136,7 @@ fn conditions_on_a_free_curved_edge_that_lead_back_to_each_other_are_refuted() {
     assert_eq!(word, "proved", "{detail}");
     let wrong = [
         laplacian("n_j u,iij + u = 0"),
-        // The conditions without the curvature and the derivative along the edge.
+        // Right where the edge is straight: ∂/∂s (n_i t_j u,ij) contains the curvature.
         free_edge(
             "scalar",
             "1/2 u,ij u,ij",
@@ -146,6 +146,7 @@ fn conditions_on_a_free_curved_edge_that_lead_back_to_each_other_are_refuted() {
                 "n_j u,iij + (n_i delta_jk - n_i n_j n_k) u,ijk = 0",
             ],
         ),
+        // The derivative along the edge is missing.
         free_edge(
             "vector",
             "1/2 u_i,jk u_i,jk",
