@@ -324,10 +324,11 @@ fn a_constraint_without_a_value_at_the_singular_end_is_not_violated() {
             .find(|line| line.contains("motion.constraint-drift"));
         let line = line.expect("the claim");
         assert!(line.contains("numerical"), "{method}: {line}");
-        assert!(
-            line.contains("without a finite value at the end, t = 2,"),
-            "{method}: {line}"
-        );
+        // A method may end a rounding beyond the place, where all is finite again.
+        let rows = std::fs::read_to_string(folder.join("trajectory.csv")).unwrap();
+        let is_without = rows.lines().last().unwrap().contains("NaN");
+        let says = line.contains("without a finite value at the end, t = 2,");
+        assert_eq!(says, is_without, "{method}: {line}");
         assert!(!lines.contains("inf"), "{method}: {lines}");
     }
 }
