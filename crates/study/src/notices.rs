@@ -436,7 +436,9 @@ pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) 
 /// Places at which the motion went on along the one branch that contains its velocity.
 fn crossings(crossings: &[Crossing]) -> Option<String> {
     let shown = crossings.iter().take(MOST_TIMES);
-    let shown: Vec<String> = shown.map(|crossing| words::number(crossing.t)).collect();
+    let shown: Vec<String> = shown
+        .map(|crossing| words::precise_number(crossing.t))
+        .collect();
     let more = if crossings.len() > MOST_TIMES {
         format!(", … ({} times)", crossings.len())
     } else {

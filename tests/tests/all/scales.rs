@@ -347,7 +347,12 @@ fn ordinary_motions_contradict_nothing() {
     );
     let long = orbit("m = 1\nk = 1", "r = 1\n\"th'\" = 0.1", "5");
     let ask = Ask {
-        claims: vec!["principles"],
+        claims: vec![
+            "witness.first-variation",
+            "witness.stationary",
+            "witness.hamilton-jacobi",
+            "witness.other-time",
+        ],
         ..Ask::default()
     };
     for text in [electron, &moon, &long] {
@@ -359,7 +364,7 @@ fn ordinary_motions_contradict_nothing() {
         let words: Vec<(String, &str)> = witnesses
             .map(|decided| (decided.full_id(), decided.finding.verdict.word()))
             .collect();
-        assert!(words.len() > 5, "{words:?}");
+        assert!(words.len() > 3, "{words:?}");
         assert!(
             words.iter().all(|(_, word)| *word != "refuted"),
             "{words:?}"

@@ -25,6 +25,8 @@ const TURNING: f64 = 0.05;
 const STEPS: usize = 60;
 /// A momentum that the constants give to within this part is met.
 const MET: f64 = 1e-9;
+/// Steps below this part of the constants move them no more.
+const STILL: f64 = 1e-12;
 /// What is added to the normal equations against directions that are free.
 const RIDGE: f64 = 1e-14;
 /// Abscissas and weights of Gauss's rule on (−1, 1), the positive half (Abramowitz and Stegun 1964, table 25.4).
@@ -419,14 +421,20 @@ impl<'b> Comparison<'b> {
     /// What the residuals are measured by: the largest values of their momenta along the motion, squared for two roots.
     fn sizes(&self) -> Vec<f64> {
         let rows = self.samples.times.len();
-        let of = |i: usize| {
+        let largest = |i: usize| {
             let values = (0..rows).map(|row| self.samples.at(1, row)[i].abs());
-            let largest = values.fold(0.0, f64::max);
-            let has_two = |(own, _, [a, b]): &(usize, Symbol, [Expr; 2])| *own == i && a != b;
+            values.fold(0.0, f64::max)
+        };
+        let of_all = (0..self.coordinates.len()).map(largest).fold(0.0, f64::max);
+        let of = |i: usize| {
+            // What is rounding beside the others has no size of its own.
+            let own = largest(i);
+            let own = if own > 1e-13 * of_all { own } else { of_all };
+            let has_two = |(at, _, [a, b]): &(usize, Symbol, [Expr; 2])| *at == i && a != b;
             match self.own.iter().any(has_two) {
-                _ if largest == 0.0 => 1.0,
-                true => largest * largest,
-                false => largest,
+                _ if own == 0.0 => 1.0,
+                true => own * own,
+                false => own,
             }
         };
         (0..self.coordinates.len()).map(of).collect()
@@ -488,8 +496,15 @@ impl<'b> Comparison<'b> {
             }
             (0..k).for_each(|i| normal[i * k + i] += RIDGE * k as f64);
             let step = solved(k, &normal, &right)?;
+            let mut is_still = true;
             for ((&(j, _), step), length) in system.free.iter().zip(step).zip(&lengths) {
-                constants[j] += step / length;
+                let step = step / length;
+                constants[j] += step;
+                is_still &= step.abs() <= STILL * constants[j].abs();
+            }
+            // A momentum that is rounding alone has no size of its own.
+            if is_still {
+                return Some(constants);
             }
         }
         None

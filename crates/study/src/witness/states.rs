@@ -6,8 +6,8 @@ use chetaev_motion::observe::Observer;
 use chetaev_motion::row::RowLayout;
 use chetaev_symbolic::Expr;
 
-/// Varied states are so far away, in units of the variation.
-pub(super) const APART: f64 = 2e-4;
+/// Varied states are so far away, in units of the extent of the motion.
+const APART: f64 = 2e-4;
 
 /// Compiled functions of (q, v, t).
 #[derive(Clone)]
@@ -16,6 +16,8 @@ pub(super) struct States {
     layout: RowLayout,
     times: Vec<f64>,
     rows: Vec<Vec<f64>>,
+    /// The size of a variation.
+    apart: f64,
 }
 
 /// A variation of a state: Δq, Δv, Δt and what masses with a law of their own change by.
@@ -38,11 +40,18 @@ impl States {
         let observer = Observer::new(cx.system, cx.terms, &evidence.binding, functions)
             .map_err(|problem| problem.to_string())?;
         let rows: Vec<Vec<f64>> = (0..count).map(|j| run.row(j).to_vec()).collect();
+        let far = |i: usize| {
+            let start = rows[0][i];
+            rows.iter()
+                .fold(0.0_f64, |m, row| m.max((row[i] - start).abs()))
+        };
+        let extent = run.layout.q().map(far).fold(0.0, f64::max);
         Ok(States {
             observer,
             layout: run.layout,
             times: run.times[..count].to_vec(),
             rows,
+            apart: APART * if extent > 0.0 { extent.min(1.0) } else { 1.0 },
         })
     }
 
@@ -68,7 +77,7 @@ impl States {
         &mut self,
         mut of: impl FnMut(&mut States, f64) -> Option<f64>,
     ) -> Option<f64> {
-        let e = APART;
+        let e = self.apart;
         let mut pair = |e: f64| Some(of(self, e)? - of(self, -e)?);
         let (near, far) = (pair(e)?, pair(2.0 * e)?);
         Some((8.0 * near - far) / (12.0 * e))
