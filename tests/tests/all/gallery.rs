@@ -163,11 +163,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
     ),
     ("heavy-top/steady.toml", "motion.method-order", "too simple"),
     (
-        "heavy-top/steady.toml",
-        "witness.hamilton-jacobi#separated",
-        "no value along the motion",
-    ),
-    (
         "trailer/model.toml",
         "witness.universal-relation#suslov",
         "no part of the motion computed",
