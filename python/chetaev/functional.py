@@ -12,7 +12,7 @@ from typing import Any
 from . import chetaev_native as native
 from .claims import explain, verify
 from .errors import ModelWarning
-from .results import Check, Explanation, Json, Result, Verdict, Verification, write
+from .results import Check, Explanation, Json, Result, Verdict, Verification, part_of, write
 from .system import Value, _pairs, _Progress, of_gallery
 
 
@@ -81,12 +81,7 @@ class FieldDerivation(Result, Sequence[FieldEquations]):
 
     def __getitem__(self, which: Any) -> Any:
         """By number, or by the title."""
-        if isinstance(which, str):
-            for own in self.parts:
-                if own.title == which:
-                    return own
-            raise KeyError(which)
-        return self.parts[which]
+        return part_of(self.parts, which, lambda own: own.title)
 
     @property
     def euler(self) -> FieldEquations:

@@ -7,7 +7,7 @@ import html
 import json
 import os
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -144,6 +144,16 @@ class Formulation:
         return f"$${self.to_latex()}$$"
 
 
+def part_of(parts: list[Any], which: Any, name: Callable[[Any], str]) -> Any:
+    """One of several parts by its number, or by its name."""
+    if not isinstance(which, str):
+        return parts[which]
+    for own in parts:
+        if name(own) == which:
+            return own
+    raise KeyError(which)
+
+
 class Derivation(Result, Sequence[Formulation]):
     """Equations of motion in one or several forms."""
 
@@ -159,12 +169,7 @@ class Derivation(Result, Sequence[Formulation]):
 
     def __getitem__(self, which: Any) -> Any:
         """By number, or by the name of the formulation."""
-        if isinstance(which, str):
-            for own in self.formulations:
-                if own.name == which:
-                    return own
-            raise KeyError(which)
-        return self.formulations[which]
+        return part_of(self.formulations, which, lambda own: own.name)
 
     def to(self, notation: str) -> str:
         """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust or c."""

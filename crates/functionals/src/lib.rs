@@ -7,6 +7,7 @@
 //!
 //! * [`notation`]: index notation, its tree and the summation convention.
 //! * [`space`]: jets of fields, total derivatives, constitutive functions with Legendre conjugates.
+//! * `conjugation`: whether functions stated as Legendre conjugates are so.
 //! * [`boundary`]: the normal and the curvature of a piece, and the distance from it.
 //! * [`tensors`]: what names mean; index notation in components.
 //! * [`functional`]: a functional as plain data.

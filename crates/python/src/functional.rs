@@ -1,20 +1,16 @@
 //! A functional of fields over space, and what can be asked of it.
 
+use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
-use chetaev::disk::{text_of, Disk};
 use chetaev::functionals::read::reload;
 use chetaev::functionals::{self, Loaded, Problem};
 use chetaev::model::model::ModelText;
-use chetaev::model::{self, Files, NoFiles, Sources, Style};
+use chetaev::model::{self, Files, Sources, Style};
 use chetaev::study::functional::{derivation, is_selected, page, record, selected, summary};
 use chetaev::study::summary::Style as SummaryStyle;
 use chetaev::study::written::Notation;
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use std::path::Path;
 
-/// Names with their values, as they are written.
-type Pairs = Vec<(String, String)>;
 /// Name, kind, piece of the boundary or `None`, description.
 type FieldOf = (String, String, Option<String>, String);
 
@@ -116,10 +112,8 @@ impl Functional {
     /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Functional> {
-        let disk = Disk::beside(Path::new(path));
-        let text = text_of(Path::new(path), false)
-            .map_err(|why| PyOSError::new_err(format!("{path} cannot be read: {why}")))?;
-        Functional::load(py, (path, &text), &disk, &overrides)
+        let text = text_at(path)?;
+        Functional::load(py, (path, &text), &*files_beside(Some(path)), &overrides)
     }
 
     /// Reads a model from its text. Files that it includes are looked for as if it stood at `path`; nothing is included without one.
@@ -130,12 +124,13 @@ impl Functional {
         path: Option<&str>,
         overrides: Pairs,
     ) -> PyResult<Functional> {
-        let disk = path.map(|path| Disk::beside(Path::new(path)));
-        let files: &dyn Files = match &disk {
-            Some(disk) => disk,
-            None => &NoFiles,
-        };
-        Functional::load(py, (path.unwrap_or("model.toml"), text), files, &overrides)
+        let files = files_beside(path);
+        Functional::load(
+            py,
+            (path.unwrap_or("model.toml"), text),
+            &*files,
+            &overrides,
+        )
     }
 
     /// Reads a model again from what `texts` gave.

@@ -11,6 +11,7 @@ mod linear;
 mod model;
 mod outcome;
 mod problem;
+mod texts;
 mod waiting;
 
 use pyo3::prelude::*;

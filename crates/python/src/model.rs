@@ -3,11 +3,11 @@
 use crate::compiled::Compiled;
 use crate::linear::Linear;
 use crate::outcome::Outcome;
+use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
-use chetaev::disk::{text_of, Disk};
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
 use chetaev::model::model::{ModelText, Precision};
-use chetaev::model::{self, Diagnostics, Files, Loaded, NoFiles, Sources, Style};
+use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
 use chetaev::study::written::{self, NotWritten, Notation};
 use chetaev::study::{
@@ -15,12 +15,8 @@ use chetaev::study::{
     ClaimSelection, StudyError, StudyOptions,
 };
 use chetaev::symbolic::print::{sympy_module, Document, Options, PythonSection};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use std::path::Path;
-
-/// Names with their values, as they are written.
-type Pairs = Vec<(String, String)>;
 
 /// A model that was read without errors.
 #[pyclass(frozen, module = "chetaev.chetaev_native")]
@@ -192,10 +188,8 @@ impl Model {
     /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Model> {
-        let disk = Disk::beside(Path::new(path));
-        let text = text_of(Path::new(path), false)
-            .map_err(|why| PyOSError::new_err(format!("{path} cannot be read: {why}")))?;
-        let loaded = py.detach(|| model::load(path, &text, &disk, &overrides));
+        let (text, files) = (text_at(path)?, files_beside(Some(path)));
+        let loaded = py.detach(|| model::load(path, &text, &*files, &overrides));
         Model::of(py, loaded)
     }
 
@@ -207,13 +201,9 @@ impl Model {
         path: Option<&str>,
         overrides: Pairs,
     ) -> PyResult<Model> {
-        let disk = path.map(|path| Disk::beside(Path::new(path)));
-        let files: &(dyn Files + Sync) = match &disk {
-            Some(disk) => disk,
-            None => &NoFiles,
-        };
+        let files = files_beside(path);
         let path = path.unwrap_or("model.toml");
-        let loaded = py.detach(|| model::load(path, text, files, &overrides));
+        let loaded = py.detach(|| model::load(path, text, &*files, &overrides));
         Model::of(py, loaded)
     }
 

@@ -132,34 +132,33 @@ impl Laboratory<'_> {
                 .is_some_and(|order| (order - self.nominal).abs() <= NEAR)
         };
         // A short or slow motion shows no order before its end.
-        for beyond in [false, true] {
-            for length in LENGTHS {
-                for &place in &places {
-                    let Some((start, length)) = self.stretch(place, length, beyond) else {
-                        continue;
-                    };
-                    if measured.contains(&(place, length)) {
-                        continue;
-                    }
-                    measured.push((place, length));
-                    let steps = COUNTS.iter().sum::<u32>() + REFERENCE;
-                    let Some(rest) = left.checked_sub(steps) else {
-                        return best.map(|best| Orders { tried, ..best });
-                    };
-                    left = rest;
-                    let Some(found) = self.measure(&start, length) else {
-                        continue;
-                    };
-                    tried += 1;
-                    // Beyond the end nobody has looked for corners: a lower order says nothing there.
-                    let counts = !beyond || near(&found);
-                    if counts && best.as_ref().is_none_or(|b| better(&found, b)) {
-                        best = Some(found);
-                    }
-                    if best.as_ref().is_some_and(near) {
-                        return best.map(|best| Orders { tried, ..best });
-                    }
-                }
+        let attempts = [false, true].into_iter().flat_map(|beyond| {
+            let all = LENGTHS.iter().map(move |&length| (beyond, length));
+            all.flat_map(|(beyond, length)| places.iter().map(move |&at| (beyond, length, at)))
+        });
+        for (beyond, length, place) in attempts {
+            let Some((start, length)) = self.stretch(place, length, beyond) else {
+                continue;
+            };
+            if measured.contains(&(place, length)) {
+                continue;
+            }
+            measured.push((place, length));
+            let Some(rest) = left.checked_sub(COUNTS.iter().sum::<u32>() + REFERENCE) else {
+                break;
+            };
+            left = rest;
+            let Some(found) = self.measure(&start, length) else {
+                continue;
+            };
+            tried += 1;
+            // Beyond the end nobody has looked for corners: a lower order says nothing there.
+            let counts = !beyond || near(&found);
+            if counts && best.as_ref().is_none_or(|b| better(&found, b)) {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(near) {
+                break;
             }
         }
         best.map(|best| Orders { tried, ..best })

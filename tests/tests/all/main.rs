@@ -2,6 +2,7 @@
 //! `cargo test -p chetaev-tests --test all MODULE::`.
 
 mod audit;
+mod beginnings;
 mod book;
 mod checker;
 mod citations;

@@ -265,13 +265,11 @@ impl<'f> Comparison<'f> {
         Judged {
             what,
             verdict,
-            open: match solved.is_circular() {
-                true => Vec::new(),
-                false => solved
-                    .left
-                    .iter()
-                    .map(|group| format!("`{}`", group.label))
-                    .collect(),
+            open: if solved.is_circular() {
+                Vec::new()
+            } else {
+                let labels = solved.left.iter();
+                labels.map(|group| format!("`{}`", group.label)).collect()
             },
         }
     }
@@ -371,13 +369,13 @@ impl<'f> Comparison<'f> {
             |f: &&Constitutive| f.conjugate.is_some() && space.undoing(f.function).is_none();
         let own = functional.functions.iter().filter(is_unrelated);
         let names: Vec<&str> = own.map(|f| f.name.as_str()).collect();
-        match names.is_empty() {
-            true => String::new(),
-            false => format!(
-                "; that {} are Legendre conjugates is not proved (functional.legendre), so that it was not used",
-                names.join(" and ")
-            ),
+        if names.is_empty() {
+            return String::new();
         }
+        format!(
+            "; that {} are Legendre conjugates is not proved (functional.legendre), so that it was not used",
+            names.join(" and ")
+        )
     }
 
     /// Fields without derivatives of which the Euler equations leave components free.

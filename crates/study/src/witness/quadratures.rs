@@ -431,10 +431,12 @@ impl<'b> Comparison<'b> {
             let own = largest(i);
             let own = if own > 1e-13 * of_all { own } else { of_all };
             let has_two = |(at, _, [a, b]): &(usize, Symbol, [Expr; 2])| *at == i && a != b;
-            match self.own.iter().any(has_two) {
-                _ if own == 0.0 => 1.0,
-                true => own * own,
-                false => own,
+            if own == 0.0 {
+                1.0
+            } else if self.own.iter().any(has_two) {
+                own * own
+            } else {
+                own
             }
         };
         (0..self.coordinates.len()).map(of).collect()
