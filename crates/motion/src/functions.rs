@@ -141,8 +141,10 @@ impl Functions {
             .backend
             .evaluate(&self.inputs, &mut self.workspace, &mut self.computed);
         if let Err(problem) = found {
-            // Those of an earlier state are not of this one.
-            self.outputs.fill(f64::NAN);
+            // Those of an earlier state are not of this one; what is zero everywhere is zero here too.
+            for &place in &self.places {
+                self.outputs[place] = f64::NAN;
+            }
             return Err(failure(problem));
         }
         let mut trace = 0.0;
@@ -210,5 +212,45 @@ pub(crate) fn failure(failure: EvaluateFailure) -> EvaluationFailure {
             argument,
         },
         _ => EvaluationFailure::NotFinite { component: 0 },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [[x, y], [y, x]] s = (1, 0) beside x and 0: where x = y nothing has a value but the zero, and elsewhere everything again,
+    /// s = (x, −y)/(x² − y²).
+    #[test]
+    #[allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+    fn a_singular_state_leaves_no_traces() {
+        let g = Graph::new();
+        let [t, x, y] = ["t", "x", "y"].map(|name| g.intern_symbol(name, 0));
+        let [a, b] = [x, y].map(|s| g.symbol_expr(s));
+        let solved = g.solve(&[a, b, b, a], &[g.one(), g.zero()]).unwrap();
+        let binding = Binding {
+            parameters: Vec::new(),
+            controls: Vec::new(),
+            variables: vec![t, x, y],
+        };
+        let group = [solved[0], solved[1], g.zero(), a];
+        let mut own =
+            Functions::new(&g, &binding, &[t, x, y], &[("values", group.to_vec())]).unwrap();
+        for _ in 0..2 {
+            assert!(own.evaluate(0.0, &[&[1.0, 1.0]]).is_err());
+            let found = own.group(0);
+            assert!(
+                found[0].is_nan() && found[1].is_nan() && found[2] == 0.0,
+                "{found:?}"
+            );
+            assert!(own.evaluate(0.0, &[&[2.0, 1.0]]).is_ok());
+            let right = [2.0 / 3.0, -1.0 / 3.0, 0.0, 2.0];
+            let near = own
+                .group(0)
+                .iter()
+                .zip(right)
+                .all(|(a, b)| (a - b).abs() < 1e-15);
+            assert!(near, "{:?}", own.group(0));
+        }
     }
 }

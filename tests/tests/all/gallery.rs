@@ -162,11 +162,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "too simple",
     ),
     ("heavy-top/steady.toml", "motion.method-order", "too simple"),
-    (
-        "trailer/model.toml",
-        "witness.universal-relation#suslov",
-        "no part of the motion computed",
-    ),
     ("sand-cart/model.toml", "motion.method-order", "too simple"),
     (
         "moving-knife-edge/lift.toml",
