@@ -25,7 +25,7 @@ enum Unmade {
     /// The description cannot be read.
     Unread(PathBuf, std::io::Error),
     /// It describes no robot.
-    Refused(PathBuf, ImportError),
+    Refused(PathBuf, Box<ImportError>),
     /// There is a file in the place of the model.
     Exists(PathBuf),
     /// The model cannot be written, in the words of who tried.
@@ -60,7 +60,8 @@ fn imported(arguments: &Arguments) -> Result<(), Unmade> {
     let path = &arguments.description;
     let shown = path.display();
     let text = text_of(path).map_err(|problem| Unmade::Unread(path.clone(), problem))?;
-    let found = import(&text).map_err(|problem| Unmade::Refused(path.clone(), problem))?;
+    let found =
+        import(&text).map_err(|problem| Unmade::Refused(path.clone(), Box::new(problem)))?;
     for note in &found.notes {
         terminal::err(&format!("{shown}:{}: {}", note.line, note.message));
     }
