@@ -27,6 +27,7 @@ pub const MOST: &[(&str, usize)] = &[
     ("spherical-robot", 20),
     ("stewart-platform", 30),
     ("double-wishbone", 30),
+    ("wheel-set", 12),
 ];
 
 /// The lines of a model that count: neither empty nor a comment, and not those of `[expect]`.

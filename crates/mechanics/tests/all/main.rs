@@ -7,4 +7,6 @@ mod constraint_set;
 mod formulations;
 mod stated;
 mod surfaces;
+mod touching;
 mod trees;
+mod twins;

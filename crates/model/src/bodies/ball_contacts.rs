@@ -6,21 +6,17 @@
 //! of its own, and c = (u, w, h) + r n (H. R. Hertz, Principles of Mechanics, 1894; R. M. Murray, Z. Li and S. S. Sastry, A Mathematical
 //! Introduction to Robotic Manipulation, 1994, § 5.6).
 
-use chetaev_symbolic::syntax::names;
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
+use super::figures::{Curved, Found, Held};
+use super::grounds::Ground;
 use super::lowering::{FrameId, Lowering};
 use super::reading::Object;
-use super::sections::word;
-use super::surfaces::{Figure, SURFACES};
-use super::touching::Found;
+use super::surfaces::{Away, Figure};
 use super::tree::ContactStated;
-use crate::diagnostic::Diagnostic;
-use crate::raw::{Kind, Raw};
+use crate::raw::Kind;
 use crate::source::Place;
-
-const KEYS: &[&str] = &["shape", "radius", "axis", "inside", "height", "coordinates"];
 
 /// A ball on a surface.
 pub(crate) struct Ball {
@@ -30,74 +26,43 @@ pub(crate) struct Ball {
     pub(crate) middle: Vector,
 }
 
-/// What vanishes, with the end of its name and the direction of its force.
-pub(crate) struct Held {
-    pub(crate) end: &'static str,
-    pub(crate) vanishes: Expr,
-    pub(crate) force: Vector,
-}
-
-/// A contact with a curved surface.
-pub(crate) struct Curved {
-    pub(crate) found: Found,
-    pub(crate) held: Vec<Held>,
-}
-
 impl<'r> Lowering<'r> {
-    /// The contact of a ball with the surface that is stated; nothing where it cannot be read, which is reported.
-    pub(crate) fn curved(&mut self, contact: &ContactStated<'r>, ball: &Ball) -> Option<Curved> {
-        let object = &contact.object;
-        let raw = object.get("surface")?;
-        let Some(table) = raw.table() else {
-            let wanted = "a table, as in { shape = \"sphere\", radius = 1, inside = true }";
-            self.wrong_kind(raw, &format!("the surface of {}", object.words()), wanted);
-            return None;
-        };
-        let stated = Object { table, ..*object };
-        self.known_keys(&stated, KEYS);
+    /// The middle of a ball, with names for its components.
+    fn ball_middle(&mut self, object: &Object<'r>, ball: &Ball) -> Vector {
         let middle = self.point(ball.plane, ball.body, ball.middle);
+        self.name_vector(&format!("{}_middle", object.name()), middle, object.place)
+    }
+
+    /// The contact of a ball with a sphere or a cylinder.
+    pub(crate) fn ball_on_round(
+        &mut self,
+        contact: &ContactStated<'r>,
+        ball: &Ball,
+        own_away: Away,
+        figure: &Figure,
+    ) -> Curved {
+        let object = &contact.object;
         let name = object.name().to_owned();
-        let middle = self.name_vector(&format!("{name}_middle"), middle, object.place);
-        if table.get("height").is_some() {
-            return self.over_plane(&stated, ball, middle);
-        }
-        let surface = self.choice(&stated, "shape", SURFACES, |own| own.word);
-        let Some(surface) = surface else {
-            if table.get("shape").is_none() {
-                let message = format!(
-                    "the surface of {} needs its `shape`, or its `height`",
-                    object.words()
-                );
-                self.error("missing-value", raw.place, message);
-            }
-            return None;
-        };
-        let figure = self.surface_figure(&stated)?;
+        let middle = self.ball_middle(object, ball);
         let a = &self.algebra;
         let reach = figure.reach(a, ball.radius);
-        let away = (surface.away)(a, &figure, middle);
+        let away = own_away(a, figure, middle);
         let outward = away.map(|e| a.graph.div(e, reach));
         let normal = figure.towards(a, outward);
-        // Half of (c² − ρ²)/ρ has the unit normal as its gradient where it vanishes.
-        let excess = a.graph.sub(a.dot(away, away), a.graph.powi(reach, 2));
-        let double = a.graph.mul(&[a.graph.integer(2), reach]);
-        let height = a.graph.div(excess, double);
-        let height = if figure.is_inside {
-            a.graph.neg(height)
-        } else {
-            height
-        };
-        self.assume_positive(reach, raw.place);
+        let height = figure.height(a, away, reach);
+        let place = object.get("surface").map_or(object.place, |raw| raw.place);
+        self.assume_positive(reach, place);
         let found = self.slip_on(&name, ball, middle, normal, object.place);
         let held = vec![Held {
             end: "touch",
             vanishes: height,
             force: normal,
+            torque: self.algebra.zero(),
         }];
-        Some(Curved { found, held })
+        Curved { found, held }
     }
 
-    fn surface_figure(&mut self, stated: &Object<'r>) -> Option<Figure> {
+    pub(crate) fn surface_figure(&mut self, stated: &Object<'r>) -> Option<Figure> {
         let Some(radius) = stated.get("radius") else {
             let message = format!("the surface of {} needs its `radius`", stated.words());
             self.error("missing-value", stated.place, message);
@@ -135,19 +100,12 @@ impl<'r> Lowering<'r> {
         let normal = self.name_vector(&format!("{name}_normal"), normal, place);
         let rates = self.rates(ball.plane, ball.body);
         let omega = self.in_base(ball.plane, ball.body, rates.omega);
-        let up = self.up_vector();
-        let level = self.level();
+        let [forward, side] = self.level_tangents(normal);
         let a = &self.algebra;
         let velocity = middle.map(|e| a.rate(e));
         let arm = a.times(a.graph.neg(ball.radius), normal);
         let slip = a.plus(velocity, a.cross(omega, arm));
-        let below = a.graph.add(&[a.graph.one(), a.dot(normal, up)]);
-        let tangent = |axis: usize| -> Vector {
-            let share = a.graph.div(normal[axis], below);
-            let turned = a.minus(a.unit(axis), a.times(share, normal));
-            a.minus(turned, a.times(share, up))
-        };
-        let directions = [tangent(level[0]), tangent(level[1]), normal];
+        let directions = [forward, side, normal];
         let velocities = [
             a.dot(slip, directions[0]),
             a.dot(slip, directions[1]),
@@ -162,8 +120,20 @@ impl<'r> Lowering<'r> {
         }
     }
 
+    /// Two unit tangents: the level axes, turned with the vertical into the normal.
+    pub(crate) fn level_tangents(&self, normal: Vector) -> [Vector; 2] {
+        let up = self.up_vector();
+        let a = &self.algebra;
+        let below = a.graph.add(&[a.graph.one(), a.dot(normal, up)]);
+        self.level().map(|axis| {
+            let share = a.graph.div(normal[axis], below);
+            let turned = a.minus(a.unit(axis), a.times(share, normal));
+            a.minus(turned, a.times(share, up))
+        })
+    }
+
     /// The axes that are level.
-    fn level(&self) -> [usize; 2] {
+    pub(crate) fn level(&self) -> [usize; 2] {
         match self.up.axis {
             0 => [1, 2],
             1 => [0, 2],
@@ -172,19 +142,29 @@ impl<'r> Lowering<'r> {
     }
 
     /// A surface of heights: the point of contact has coordinates of its own, and the middle of the ball is given by three constraints.
-    fn over_plane(&mut self, stated: &Object<'r>, ball: &Ball, middle: Vector) -> Option<Curved> {
-        let name = stated.name().to_owned();
-        let place = stated.place;
-        let [u, w] = self.contact_coordinates(stated)?;
-        let height = stated.get("height")?;
-        let height = self.height_over(stated, height, [u, w])?;
+    pub(crate) fn ball_on_heights(
+        &mut self,
+        contact: &ContactStated<'r>,
+        ball: &Ball,
+        ground: &Ground,
+    ) -> Option<Curved> {
+        let Ground::Heights {
+            height,
+            variables: [u_symbol, w_symbol],
+            names,
+        } = ground
+        else {
+            return None;
+        };
+        let object = &contact.object;
+        let (name, place) = (object.name().to_owned(), object.place);
+        let middle = self.ball_middle(object, ball);
+        let (height, u_symbol, w_symbol) = (*height, *u_symbol, *w_symbol);
+        let about = format!("point of contact of {}", object.words());
+        let [u, w] = [0, 1].map(|i| self.coordinate(&names[i], "m", about.clone()));
         let level = self.level();
         let up = self.up_vector();
         let graph = &self.algebra.graph;
-        let variables = [u, w].map(|e| graph.as_symbol(e));
-        let [Some(u_symbol), Some(w_symbol)] = variables else {
-            return None;
-        };
         let slopes = graph.gradient(height, &[u_symbol, w_symbol]);
         let a = &self.algebra;
         let mut steep = up;
@@ -204,58 +184,10 @@ impl<'r> Lowering<'r> {
             end: ends[axis],
             vanishes: apart[axis],
             force: a.unit(axis),
+            torque: a.zero(),
         });
         let held: Vec<Held> = held.collect();
         let found = self.slip_on(&name, ball, middle, normal, place);
         Some(Curved { found, held })
-    }
-
-    /// The two coordinates of the point of contact, named by the user or after the contact.
-    fn contact_coordinates(&mut self, stated: &Object<'r>) -> Option<[Expr; 2]> {
-        let name = stated.name();
-        let mut names = [
-            word(format!("{name}_u"), stated.place),
-            word(format!("{name}_w"), stated.place),
-        ];
-        if let Some(raw) = stated.get("coordinates") {
-            let items = match &raw.kind {
-                Kind::Array(items) => items.iter().filter_map(Raw::expression).collect(),
-                _ => Vec::new(),
-            };
-            let [first, second] = items[..] else {
-                self.wrong_kind(raw, "`coordinates` of a surface", "an array of two names");
-                return None;
-            };
-            names = [first.clone(), second.clone()];
-        }
-        let about = format!("point of contact of {}", stated.words());
-        Some(names.map(|name| self.coordinate(&name, "m", about.clone())))
-    }
-
-    /// A height as a function of the point of contact, the time and parameters: it is differentiated here, so that all that moves in it must be seen.
-    fn height_over(&mut self, stated: &Object<'r>, raw: &Raw, own: [Expr; 2]) -> Option<Expr> {
-        let Some(text) = raw.expression() else {
-            self.wrong_kind(raw, "`height`", "an expression of the point of contact");
-            return None;
-        };
-        let value = self.read_symbols(text)?;
-        let graph = &self.algebra.graph;
-        let strange = graph.symbols_in(&[value]).into_iter().find(|&symbol| {
-            let name = names::normalized(graph.symbol_name(symbol));
-            let is_own = own.contains(&graph.symbol_expr(symbol));
-            !is_own && name != "t" && !self.parameters.contains(&name)
-        });
-        if let Some(strange) = strange {
-            let message = format!(
-                "the height of {} may depend on the coordinates of its point of contact, the time and parameters, not on `{}`",
-                stated.words(),
-                graph.symbol_text(strange)
-            );
-            let problem = Diagnostic::error("not-allowed-here", raw.place, message);
-            let hint = "name these coordinates by `coordinates = [\"u\", \"w\"]` of the surface";
-            self.problems.push(problem.hint(hint));
-            return None;
-        }
-        Some(value)
     }
 }

@@ -7,12 +7,12 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
+use super::figures::Found;
 use super::lowering::{FrameId, Lowering, GROUND};
 use super::objects::KeptReaction;
 use super::reading::Object;
 use super::sections::{table, text};
 use super::springs::Spring;
-use super::touching::Found;
 use super::tree::ContactStated;
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw};

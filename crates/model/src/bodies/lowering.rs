@@ -204,6 +204,28 @@ impl<'r> Lowering<'r> {
         symbol
     }
 
+    /// The same expressions in which what is written more than once has a name, so that no text is longer than what it says.
+    pub(crate) fn share(&mut self, wanted: &str, roots: &[Expr], place: Place) -> Vec<Expr> {
+        const WORTH_A_NAME: u64 = 8;
+        let order = self.algebra.graph.reachable(roots);
+        let mut uses: HashMap<Expr, usize> = HashMap::new();
+        for e in &order {
+            let node = self.algebra.graph.node(*e);
+            node.for_each_child(|child| *uses.entry(child).or_default() += 1);
+        }
+        let mut named: Vec<(Expr, Expr)> = Vec::new();
+        for e in order {
+            if uses.get(&e).is_none_or(|count| *count < 2) {
+                continue;
+            }
+            let value = self.algebra.graph.substitute(e, &named);
+            if self.algebra.graph.tree_size(value) >= WORTH_A_NAME {
+                named.push((e, self.name(wanted, value, place)));
+            }
+        }
+        self.algebra.graph.substitute_all(roots, &named)
+    }
+
     /// Writes a definition; its name is changed where it is taken.
     pub(crate) fn define(&mut self, wanted: &str, value: Raw, varies: bool) -> Expr {
         let mut name = wanted.to_owned();

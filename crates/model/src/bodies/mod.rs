@@ -5,8 +5,8 @@
 //! record) reads these sections as if a person had written them.
 //!
 //! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
-//! energies, `touching`, `closing`, `couplings` and `ropes` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `curved` those on surfaces
-//! that are no planes; `shapes`, `joints`, `contacts` and `surfaces` are registries.
+//! energies, `touching`, `closing`, `couplings` and `ropes` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `ball_contacts` and
+//! `tangency` those on surfaces that are no planes, which `grounds` reads; `shapes`, `joints`, `contacts` and `surfaces` are registries.
 
 mod algebra;
 mod ball_contacts;
@@ -14,7 +14,9 @@ mod closing;
 mod contacts;
 mod couplings;
 mod families;
+mod figures;
 mod forces;
+mod grounds;
 mod joints;
 mod keeping;
 mod kinematics;
@@ -31,6 +33,7 @@ mod shapes;
 mod solids;
 mod springs;
 mod surfaces;
+mod tangency;
 mod touching;
 mod tree;
 
@@ -314,7 +317,10 @@ fn states_units(root: &Table) -> bool {
             Kind::Text(text) if is_object && quantity(&text.content).is_some() => return true,
             Kind::Table(table) if table.get("unit").is_some() => return true,
             Kind::Table(table) => {
-                open.extend(table.entries.iter().map(|(_, raw)| (is_object, raw)))
+                let own = table.entries.iter();
+                // In a formula of a shape `2 s` is no time.
+                let own = own.filter(|(key, _)| !grounds::FORMULAS.contains(&key.content.as_str()));
+                open.extend(own.map(|(_, raw)| (is_object, raw)))
             }
             Kind::Array(items) => open.extend(items.iter().map(|raw| (is_object, raw))),
             _ => {}

@@ -389,7 +389,7 @@ impl<'r> Lowering<'r> {
     /// Whether the rim or sphere of a contact is the body's own, or a wheel turns about its own axle at it.
     fn is_hub_of(&self, name: &str, contact: usize, tree: &Tree<'r>) -> bool {
         let stated = &tree.contacts[contact];
-        if ["at", "axis", "radius", "surface"]
+        if ["at", "axis", "radius", "taper", "figure", "surface"]
             .iter()
             .any(|key| stated.object.get(key).is_some())
         {
@@ -402,7 +402,6 @@ impl<'r> Lowering<'r> {
             return false;
         };
         match shape.outline {
-            Outline::None | Outline::Ellipsoid | Outline::Torus => false,
             Outline::Sphere => stated.body == name,
             Outline::Rim if sizes.axis == self.up.axis => false,
             Outline::Rim if stated.body == name => true,
@@ -415,6 +414,7 @@ impl<'r> Lowering<'r> {
                     && joint.object.get("child_at").is_none()
                     && self.algebra.is_along(self.outline_center(body), sizes.axis)
             }),
+            _ => false,
         }
     }
 

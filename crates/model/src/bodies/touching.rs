@@ -10,45 +10,17 @@ use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
 use super::ball_contacts::Ball;
+use super::figures::{Curved, Figure, Found};
+use super::grounds::Ground;
 use super::lowering::{FrameId, Lowering, GROUND};
 use super::objects::KeptReaction;
 use super::placing::Built;
+use super::reading::Object;
 use super::sections::{table, text, word};
 use super::shapes::Outline;
 use super::tree::{ContactStated, Tree};
 use crate::diagnostic::Diagnostic;
 use crate::source::Place;
-
-/// What touches: its figure, and where its middle is in the axes of its body.
-struct Figure {
-    outline: Outline,
-    /// The axle of a rim, the direction of a blade.
-    axis: usize,
-    /// Radius, or semi-axes.
-    lengths: Vec<Expr>,
-    middle: Vector,
-}
-
-impl Figure {
-    fn radius(&self) -> Expr {
-        self.lengths[0]
-    }
-}
-
-/// What a body does at the point where it touches a plane, against the plane.
-pub(crate) struct Found {
-    /// The velocity of its touching point along the rim or the blade, that across it in the plane, and the angular velocity about
-    /// the normal.
-    pub(crate) velocities: [Expr; 3],
-    /// The height of its lowest point.
-    pub(crate) height: Expr,
-    /// In which axes the following are given.
-    pub(crate) axes: FrameId,
-    /// The touching point.
-    pub(crate) point: Vector,
-    /// Unit vectors along, across and normal.
-    pub(crate) directions: [Vector; 3],
-}
 
 impl<'r> Lowering<'r> {
     /// Writes the constraints of all contacts.
@@ -82,44 +54,64 @@ impl<'r> Lowering<'r> {
         };
         let place = object.place;
         let name = object.name().to_owned();
-        if let Some(raw) = object.get("surface") {
-            if figure.outline != Outline::Sphere {
-                let message = format!(
-                    "{}: on a surface that is no plane only balls touch",
-                    object.words()
-                );
-                return self.error("not-allowed-here", raw.place, message);
-            }
-            let ball = Ball {
-                body,
-                plane,
-                radius: figure.radius(),
-                middle: figure.middle,
-            };
-            return self.touch_curved(contact, &ball);
+        if object.get("surface").is_some() || figure.outline == Outline::Stated {
+            let curved = self.on_ground(contact, &figure, [plane, body]);
+            return self.touch_curved(contact, curved);
         }
         let found = match (figure.outline, built) {
             (Outline::Rim, Some(built)) => self.rim_built(&figure, built, plane, body),
             (Outline::Rim | Outline::Torus, _) => self.rim(&figure, plane, body, &name, place),
             (Outline::Sphere, _) => self.sphere(&figure, plane, body),
             (Outline::Ellipsoid, _) => self.ellipsoid(&figure, plane, body, &name, place),
-            (Outline::None, _) => self.tip(&figure, plane, body),
+            _ => self.tip(&figure, plane, body),
         };
         self.hold(contact, &found);
         self.react_normally(contact, &format!("{name}_touch"), &found);
         self.stay(&name, found.height, &object.words(), place);
     }
 
-    /// On a surface that is no plane.
-    fn touch_curved(&mut self, contact: &ContactStated<'r>, ball: &Ball) {
-        let Some(curved) = self.curved(contact, ball) else {
+    /// Where the middle of a ball moves on a surface of the same kind, in closed form; else by where the two figures touch.
+    fn on_ground(
+        &mut self,
+        contact: &ContactStated<'r>,
+        figure: &Figure,
+        frames: [FrameId; 2],
+    ) -> Option<Curved> {
+        let ground = self.ground_of(contact)?;
+        let [plane, body] = frames;
+        let ball = Ball {
+            body,
+            plane,
+            radius: figure
+                .lengths
+                .first()
+                .copied()
+                .unwrap_or(self.algebra.graph.zero()),
+            middle: figure.middle,
+        };
+        match ground {
+            Ground::Round {
+                away, figure: own, ..
+            } if figure.outline == Outline::Sphere => {
+                Some(self.ball_on_round(contact, &ball, away, &own))
+            }
+            Ground::Heights { .. } if figure.outline == Outline::Sphere => {
+                self.ball_on_heights(contact, &ball, &ground)
+            }
+            _ => self.tangent(contact, figure, frames, &ground),
+        }
+    }
+
+    /// On a surface that is no plane, or with a figure of any kind; nothing where it could not be read, which is reported.
+    fn touch_curved(&mut self, contact: &ContactStated<'r>, curved: Option<Curved>) {
+        let Some(curved) = curved else {
             return;
         };
         self.hold(contact, &curved.found);
         let object = &contact.object;
         for held in curved.held {
             let own = format!("{}_{}", object.name(), held.end);
-            let wrench = [held.force, self.algebra.zero()];
+            let wrench = [held.force, held.torque];
             self.react_by(contact, &own, &curved.found, wrench);
             let about = format!("{} stays on its surface", object.words());
             self.constrain(&own, held.vanishes, about, object.place);
@@ -238,10 +230,8 @@ impl<'r> Lowering<'r> {
         if object.get("at").is_some() {
             middle = self.vector(object, "at", "m", false)?;
         }
-        let radius = match object.get("radius") {
-            Some(raw) => Some(self.number(&object.slot("radius", "m"), raw)?),
-            None => None,
-        };
+        let radius = self.stated_number(object, "radius", "m")?;
+        let taper = self.stated_number(object, "taper", "1")?;
         let axis = match self.word(object, "axis") {
             Some(text) => Some(self.axis_of(text)?.0),
             None => None,
@@ -250,14 +240,33 @@ impl<'r> Lowering<'r> {
             Some(text) => Some(self.axis_of(text)?.0),
             None => None,
         };
-        let is_tip = object.get("at").is_some() && radius.is_none();
+        let is_tip = object.get("at").is_some() && radius.is_none() && taper.is_none();
         let figure = |outline, axis, lengths| Figure {
             outline,
             axis,
             lengths,
             middle,
+            stated: None,
+        };
+        if let Some(raw) = object.get("figure") {
+            let stated = self.stated_figure(contact, raw)?;
+            return Some(Figure {
+                stated: Some(stated),
+                ..figure(Outline::Stated, 2, Vec::new())
+            });
+        }
+        let on_plane = object.get("surface").is_none();
+        let has_outline = |outline| match outline {
+            Outline::None => false,
+            Outline::Cone | Outline::Cylinder => !on_plane,
+            _ => true,
         };
         Some(match (radius, usual) {
+            (Some(radius), own) if taper.is_some() => {
+                let own = own.map_or(1, |(_, own, _)| own);
+                let lengths = [Some(radius), taper].into_iter().flatten().collect();
+                figure(Outline::Tapered, axis.unwrap_or(own), lengths)
+            }
             (Some(radius), _) => {
                 let outline = match axis {
                     Some(_) => Outline::Rim,
@@ -265,7 +274,12 @@ impl<'r> Lowering<'r> {
                 };
                 figure(outline, axis.unwrap_or(1), vec![radius])
             }
-            (None, Some((outline, own, lengths))) if !is_tip && outline != Outline::None => {
+            (None, Some((Outline::Rim, own, lengths))) if taper.is_some() => {
+                let lengths = lengths.into_iter().take(1).chain(taper).collect();
+                figure(Outline::Tapered, axis.unwrap_or(own), lengths)
+            }
+            (None, Some((outline, own, lengths))) if !is_tip && has_outline(outline) => {
+                let (outline, lengths) = outline.touching(&self.algebra, lengths);
                 figure(outline, axis.unwrap_or(own), lengths)
             }
             _ if ["blade", "sliding"].contains(&contact.kind.word) => {
@@ -285,8 +299,21 @@ impl<'r> Lowering<'r> {
         })
     }
 
+    /// A number under a key: nothing where it is not stated; the outer nothing where it cannot be read.
+    fn stated_number(
+        &mut self,
+        object: &Object<'r>,
+        key: &str,
+        unit: &'static str,
+    ) -> Option<Option<Expr>> {
+        match object.get(key) {
+            Some(raw) => self.number(&object.slot(key, unit), raw).map(Some),
+            None => Some(None),
+        }
+    }
+
     /// The normal of a plane in the axes of a frame that it carries.
-    fn normal(&mut self, plane: FrameId, frame: FrameId) -> Vector {
+    pub(crate) fn normal(&mut self, plane: FrameId, frame: FrameId) -> Vector {
         let row = self.axes(plane, frame)[self.up.axis];
         if self.up.is_backward {
             self.algebra.minus(self.algebra.zero(), row)
@@ -306,7 +333,7 @@ impl<'r> Lowering<'r> {
     }
 
     /// The frame that does not spin along, with the middle of the figure in its axes.
-    fn still_axes(
+    pub(crate) fn still_axes(
         &mut self,
         body: FrameId,
         figure: &Figure,

@@ -75,6 +75,8 @@ const CONTACT_KEYS: &[&str] = &[
     "at",
     "axis",
     "radius",
+    "taper",
+    "figure",
     "direction",
     "angle",
     "coordinates",

@@ -458,9 +458,19 @@ fn surfaces_that_make_no_sense_are_refused() {
         ),
         ("inside = true", "inside = 1", "true or false"),
         (
-            "radius = \"r\", surface",
-            "axis = \"y\", radius = \"r\", surface",
-            "only balls touch",
+            "radius = \"r\", surface = { shape = \"sphere\", radius = \"R\", inside = true }",
+            "axis = \"y\", radius = \"r\", surface = { shape = \"rail\" }",
+            "two lines",
+        ),
+        (
+            "radius = \"r\", surface = { shape = \"sphere\", radius = \"R\", inside = true }",
+            "figure = { equation = \"R\" }",
+            "contains none of its coordinates",
+        ),
+        (
+            "shape = \"sphere\", radius = \"R\", inside = true",
+            "curve = [1, 0, 2]",
+            "does not depend on its coordinate",
         ),
     ] {
         let loaded = load("model.toml", &IN_BOWL.replace(from, to), &NoFiles, &[]);

@@ -20,6 +20,6 @@ pub(super) const CONE: Shape = Shape {
         let of = |n, d, e| a.graph.mul(&[a.ratio(n, d), e]);
         s.revolved(a.graph.add(&[of(3, 20, r), of(3, 80, l)]), of(3, 10, r))
     },
-    outline: Outline::None,
+    outline: Outline::Cone,
     look: Look::Bar,
 };

@@ -16,6 +16,6 @@ pub(super) const CYLINDER: Shape = Shape {
         let of = |n, e| a.graph.mul(&[a.ratio(1, n), e]);
         s.revolved(a.graph.add(&[of(4, r), of(12, l)]), of(2, r))
     },
-    outline: Outline::None,
+    outline: Outline::Cylinder,
     look: Look::Bar,
 };

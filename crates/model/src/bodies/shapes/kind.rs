@@ -18,7 +18,7 @@ pub(crate) struct Shape {
     pub(crate) content: fn(&Algebra, &Sizes) -> Expr,
     /// Central moments about the axis and two directions across it, over the mass. Across and along are asked of `Sizes`.
     pub(crate) moments: fn(&Algebra, &Sizes) -> [Expr; 3],
-    /// How it touches a plane.
+    /// How it touches.
     pub(crate) outline: Outline,
     /// How it is drawn.
     pub(crate) look: Look,
@@ -39,7 +39,7 @@ impl Sizes {
     }
 }
 
-/// How a shape touches a plane.
+/// How a shape touches.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outline {
     /// By the lowest point of a thin rim about the axis; the first size is its radius.
@@ -50,8 +50,32 @@ pub(crate) enum Outline {
     Torus,
     /// By the lowest point of an ellipsoid; the sizes are its semi-axes.
     Ellipsoid,
-    /// Not in closed form.
+    /// The mantle of a cylinder about the axis; the sizes are its radius and its length.
+    Cylinder,
+    /// The mantle of a cone whose tip the axis points to; the sizes are the radius of its base and its length.
+    Cone,
+    /// The mantle of a cone near its middle, the sizes are its radius there and what it gains along the axis.
+    Tapered,
+    /// What a contact states by an equation.
+    Stated,
+    /// A point.
     None,
+}
+
+impl Outline {
+    /// The figure that touches, with its sizes about the centre of mass of the homogeneous solid, where solids differ from what they touch with.
+    pub(crate) fn touching(self, a: &Algebra, sizes: Vec<Expr>) -> (Outline, Vec<Expr>) {
+        match (self, sizes.as_slice()) {
+            (Outline::Cylinder, [radius, ..]) => (Outline::Tapered, vec![*radius, a.graph.zero()]),
+            // The centre of mass of a cone is a quarter of its height above the base.
+            (Outline::Cone, [radius, length]) => {
+                let middle = a.graph.mul(&[a.ratio(3, 4), *radius]);
+                let taper = a.graph.neg(a.graph.div(*radius, *length));
+                (Outline::Tapered, vec![middle, taper])
+            }
+            _ => (self, sizes),
+        }
+    }
 }
 
 /// How a shape is drawn.

@@ -24,6 +24,19 @@ impl Figure {
         }
     }
 
+    /// How high a point is over the surface that has `reach` for its radius: half of (c² − ρ²)/ρ has the unit normal as its gradient where it vanishes.
+    pub(crate) fn height(&self, a: &Algebra, away: Vector, reach: Expr) -> Expr {
+        let excess = a.graph.sub(a.dot(away, away), a.graph.powi(reach, 2));
+        let height = a
+            .graph
+            .div(excess, a.graph.mul(&[a.graph.integer(2), reach]));
+        if self.is_inside {
+            a.graph.neg(height)
+        } else {
+            height
+        }
+    }
+
     /// A vector that points away from the middle of the surface, as one towards the ball.
     pub(crate) fn towards(&self, a: &Algebra, outward: Vector) -> Vector {
         if self.is_inside {
@@ -38,6 +51,17 @@ impl Figure {
 pub(crate) struct Surface {
     /// Its word in the model file.
     pub(crate) word: &'static str,
-    /// The part of the vector from its middle that is as long as the radius: from a point to the surface's middle or axis.
-    pub(crate) away: fn(&Algebra, &Figure, Vector) -> Vector,
+    pub(crate) form: Form,
 }
+
+/// What a surface is made of.
+#[derive(Clone, Copy)]
+pub(crate) enum Form {
+    /// All points at one distance from a middle or an axis: the part of the vector from there that is as long as the radius.
+    Round(Away),
+    /// A line.
+    Line,
+}
+
+/// The part of a vector that points away from the middle or the axis of a surface.
+pub(crate) type Away = fn(&Algebra, &Figure, Vector) -> Vector;

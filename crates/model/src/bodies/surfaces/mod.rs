@@ -1,10 +1,11 @@
-//! Curved surfaces on which balls roll and slide: for each, where the middle of a ball may be, and the unit normal there.
+//! What is touched beside planes: for each what it is made of.
 
 mod cylinder;
 mod kind;
+mod rail;
 mod sphere;
 
-pub(crate) use kind::{Figure, Surface};
+pub(crate) use kind::{Away, Figure, Form, Surface};
 
-/// Surfaces whose middle moves on a surface of the same kind; a new one is a file and a line here.
-pub(crate) const SURFACES: &[&Surface] = &[&sphere::SPHERE, &cylinder::CYLINDER];
+/// Every surface that has a word; a new one is a file and a line here.
+pub(crate) const SURFACES: &[&Surface] = &[&sphere::SPHERE, &cylinder::CYLINDER, &rail::RAIL];

@@ -1,8 +1,8 @@
 //! A sphere about the origin of its frame.
 
-use super::kind::Surface;
+use super::kind::{Form, Surface};
 
 pub(super) const SPHERE: Surface = Surface {
     word: "sphere",
-    away: |_, _, middle| middle,
+    form: Form::Round(|_, _, middle| middle),
 };
