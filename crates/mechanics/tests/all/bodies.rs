@@ -696,6 +696,7 @@ const ALL: &[&str] = &[
     "trailer",
     "unicycle",
     "vertical-rolling-disc",
+    "wheel-set",
     "whipple-bicycle",
 ];
 
