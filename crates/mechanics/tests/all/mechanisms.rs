@@ -16,7 +16,11 @@ use chetaev_symbolic::{Rational, Verdict};
 use std::fmt::Write as _;
 
 #[path = "../../../../tests/src/extent.rs"]
-#[allow(dead_code, unreachable_pub, reason = "public where the tests of the workspace are")]
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "public where the tests of the workspace are"
+)]
 mod extent;
 
 use extent::Extent;

@@ -230,46 +230,6 @@ parameters = { m = "ball_mass", r = "ball_radius" }
 "#,
         slip: ["1/5 m", "1/3 m"],
     },
-    // Slender rods by the ends of each, whose kinetic energy is m/6 (u² + u·v + v²) with the velocities u and v of the ends. The hinge of two rods is across
-    // both, and the hinges of a rod are across each other.
-    Twin {
-        file: "bricard",
-        hand: r#"
-coordinates = ["x1", "y1", "z1", "x2", "y2", "z2", "x3", "y3", "z3", "x4", "y4", "z4"]
-parameters = ["m", "l", "g"]
-[define]
-"n1_x" = "y1 (z2 - z1) - z1 (y2 - y1)"
-"n1_y" = "z1 (x2 - x1) - x1 (z2 - z1)"
-"n1_z" = "x1 (y2 - y1) - y1 (x2 - x1)"
-"n2_x" = "(y2 - y1) (z3 - z2) - (z2 - z1) (y3 - y2)"
-"n2_y" = "(z2 - z1) (x3 - x2) - (x2 - x1) (z3 - z2)"
-"n2_z" = "(x2 - x1) (y3 - y2) - (y2 - y1) (x3 - x2)"
-"n3_x" = "(y3 - y2) (z4 - z3) - (z3 - z2) (y4 - y3)"
-"n3_y" = "(z3 - z2) (x4 - x3) - (x3 - x2) (z4 - z3)"
-"n3_z" = "(x3 - x2) (y4 - y3) - (y3 - y2) (x4 - x3)"
-"n4_x" = "-(y4 - y3) (z4 - l) + (z4 - z3) y4"
-"n4_y" = "-(z4 - z3) x4 + (x4 - x3) (z4 - l)"
-"n4_z" = "-(x4 - x3) y4 + (y4 - y3) x4"
-[lagrangian]
-T = "m/6 (2 (x1'^2 + y1'^2 + z1'^2 + x2'^2 + y2'^2 + z2'^2 + x3'^2 + y3'^2 + z3'^2 + x4'^2 + y4'^2 + z4'^2) + x1' x2' + y1' y2' + z1' z2' + x2' x3' + y2' y3' + z2' z3' + x3' x4' + y3' y4' + z3' z4')"
-V = "m g (z1 + z2 + z3 + z4)"
-[constraints]
-first = "x1^2 + y1^2 + z1^2 = l^2"
-second = "(x2 - x1)^2 + (y2 - y1)^2 + (z2 - z1)^2 = l^2"
-third = "(x3 - x2)^2 + (y3 - y2)^2 + (z3 - z2)^2 = l^2"
-fourth = "(x4 - x3)^2 + (y4 - y3)^2 + (z4 - z3)^2 = l^2"
-fifth = "x4^2 + y4^2 + (z4 - l)^2 = l^2"
-hinge = "y1 = 0"
-last = "x4 = 0"
-hinges_1 = "n1_y = 0"
-hinges_2 = "n1_x n2_x + n1_y n2_y + n1_z n2_z = 0"
-hinges_3 = "n2_x n3_x + n2_y n3_y + n2_z n3_z = 0"
-hinges_4 = "n3_x n4_x + n3_y n4_y + n3_z n4_z = 0"
-hinges_5 = "n4_x = 0"
-"#,
-        joined: r#"map = { x1 = "r2_p_x", y1 = "r2_p_y", z1 = "r2_p_z", x2 = "r3_p_x", y2 = "r3_p_y", z2 = "r3_p_z", x3 = "r4_p_x", y3 = "r4_p_y", z3 = "r4_p_z", x4 = "r5_p_x", y4 = "r5_p_y", z4 = "r5_p_z" }"#,
-        slip: ["+ x1' x2'", "- x1' x2'"],
-    },
     // J. Reimpell, H. Stoll and J. W. Betzler, The Automotive Chassis, 2001: two wishbones, a tie rod, and the strut on the lower one.
     Twin {
         file: "double-wishbone",
@@ -279,14 +239,30 @@ parameters = ["car_mass", "lower_mass", "lower_inertia", "lower_center_y", "uppe
 [define]
 By = "lower_at_y + ball_at_y cos(L)"
 Bz = "lower_at_z + ball_at_y sin(L)"
-hy = "hub_center_y cos(b) - hub_center_z cos(c) sin(b)"
-Hx = "hub_center_z sin(c) cos(a) - hy sin(a)"
-Hy = "By + hub_center_z sin(c) sin(a) + hy cos(a)"
-Hz = "heave + Bz + hub_center_y sin(b) + hub_center_z cos(c) cos(b)"
-ty = "top_child_at_y cos(b) - top_child_at_z cos(c) sin(b)"
-ex = "end_child_at_x cos(c) + end_child_at_z sin(c)"
-ez = "end_child_at_z cos(c) - end_child_at_x sin(c)"
-ey = "end_child_at_y cos(b) - ez sin(b)"
+H1 = "hub_center_z sin(c)"
+H2 = "hub_center_y cos(b) - (hub_center_z cos(c)) sin(b)"
+H3 = "hub_center_y sin(b) + (hub_center_z cos(c)) cos(b)"
+H4 = "H1 sin(a) + H2 cos(a)"
+Hx = "H1 cos(a) - H2 sin(a)"
+Hy = "By + H4 cos(L) - H3 sin(L)"
+Hz = "Bz + H4 sin(L) + H3 cos(L)"
+K1 = "top_child_at_z sin(c)"
+K2 = "top_child_at_y cos(b) - (top_child_at_z cos(c)) sin(b)"
+K3 = "top_child_at_y sin(b) + (top_child_at_z cos(c)) cos(b)"
+K4 = "K1 sin(a) + K2 cos(a)"
+Kx = "K1 cos(a) - K2 sin(a)"
+Ky = "By + K4 cos(L) - K3 sin(L)"
+Kz = "Bz + K4 sin(L) + K3 cos(L)"
+E1 = "end_child_at_x cos(c) + end_child_at_z sin(c)"
+E2 = "end_child_at_y cos(b) - (end_child_at_z cos(c) - end_child_at_x sin(c)) sin(b)"
+E3 = "end_child_at_y sin(b) + (end_child_at_z cos(c) - end_child_at_x sin(c)) cos(b)"
+E4 = "E1 sin(a) + E2 cos(a)"
+Ex = "E1 cos(a) - E2 sin(a)"
+Ey = "By + E4 cos(L) - E3 sin(L)"
+Ez = "Bz + E4 sin(L) + E3 cos(L)"
+w1 = "L' + b' cos(a) - c' sin(a) cos(b)"
+w2 = "b' sin(a) + c' cos(a) cos(b)"
+w3 = "a' + c' sin(b)"
 lower_y = "lower_center_y cos(L)"
 lower_z = "heave + lower_center_y sin(L)"
 upper_y = "upper_center_y cos(U)"
@@ -296,20 +272,20 @@ rod_y = "rod_center_y cos(q) cos(p)"
 rod_z = "heave + rod_center_y cos(q) sin(p)"
 strut_length = "sqrt((lower_at_y + strut_at_y cos(L) - strut_to_at_y)^2 + (lower_at_z + strut_at_y sin(L) - strut_to_at_z)^2)"
 [lagrangian]
-T = "1/2 (car_mass + rack_mass) heave'^2 + 1/2 lower_mass (lower_y'^2 + lower_z'^2) + 1/2 lower_inertia L'^2 + 1/2 upper_mass (upper_y'^2 + upper_z'^2) + 1/2 upper_inertia U'^2 + 1/2 hub_mass (Hx'^2 + Hy'^2 + Hz'^2) + 1/2 hub_inertia (a'^2 + b'^2 + c'^2 + 2 a' c' sin(b)) + 1/2 rod_mass (rod_x'^2 + rod_y'^2 + rod_z'^2) + 1/2 rod_inertia (p'^2 + q'^2)"
-V = "g ((car_mass + rack_mass) heave + lower_mass lower_z + upper_mass upper_z + hub_mass Hz + rod_mass rod_z) + 1/2 k (strut_length - strut_rest)^2"
+T = "1/2 (car_mass + rack_mass) heave'^2 + 1/2 lower_mass (lower_y'^2 + lower_z'^2) + 1/2 lower_inertia L'^2 + 1/2 upper_mass (upper_y'^2 + upper_z'^2) + 1/2 upper_inertia U'^2 + 1/2 hub_mass (Hx'^2 + Hy'^2 + (heave' + Hz')^2) + 1/2 hub_inertia (w1^2 + w2^2 + w3^2) + 1/2 rod_mass (rod_x'^2 + rod_y'^2 + rod_z'^2) + 1/2 rod_inertia (p'^2 + q'^2)"
+V = "g ((car_mass + rack_mass) heave + lower_mass lower_z + upper_mass upper_z + hub_mass (heave + Hz) + rod_mass rod_z) + 1/2 k (strut_length - strut_rest)^2"
 [forces]
 rayleigh = "1/2 strut_damper strut_length'^2"
 [constraints]
-top_x = "top_child_at_z sin(c) cos(a) - ty sin(a) = 0"
-top_y = "By + top_child_at_z sin(c) sin(a) + ty cos(a) = upper_at_y + top_at_y cos(U)"
-top_z = "Bz + top_child_at_y sin(b) + top_child_at_z cos(c) cos(b) = upper_at_z + top_at_y sin(U)"
-end_x = "ex cos(a) - ey sin(a) = rack_at_x - end_at_y sin(q)"
-end_y = "By + ex sin(a) + ey cos(a) = rack_at_y + end_at_y cos(q) cos(p)"
-end_z = "Bz + end_child_at_y sin(b) + ez cos(b) = end_at_y cos(q) sin(p)"
+top_x = "Kx = 0"
+top_y = "Ky = upper_at_y + top_at_y cos(U)"
+top_z = "Kz = upper_at_z + top_at_y sin(U)"
+end_x = "Ex = rack_at_x - end_at_y sin(q)"
+end_y = "Ey = rack_at_y + end_at_y cos(q) cos(p)"
+end_z = "Ez = end_at_y cos(q) sin(p)"
 "#,
         joined: r#"map = { heave = "heave", L = "lower", U = "upper", a = "ball_yaw", b = "ball_lean", c = "ball_pitch", p = "rod_lean", q = "rod_yaw" }"#,
-        slip: ["+ 2 a' c' sin(b)", "- 2 a' c' sin(b)"],
+        slip: ["w1 = \"L' + b'", "w1 = \"b'"],
     },
     // In axes at rest: the point of the bowl moves with Om k × r (E. J. Routh, 1905, ch. V).
     Twin {
