@@ -26,8 +26,8 @@ A record of a functional of fields over space has its densities and equations in
 (theory 4), at random jets modulo a prime.
 
 Files: `expressions` (nodes, parser, derivatives), `fields` (series over a prime field), `systems` (the model, points of its constraints,
-motions), `intervals` (real values), `index_notation` and `functionals` (fields over
-space), and `claims/`, one file for each kind of claim.
+motions), `intervals` (real values), `index_notation`, `functionals`,
+`jets` and `rules` (fields over space), and `claims/`, one file for each kind of claim.
 """
 import importlib
 import json
@@ -38,6 +38,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.setrecursionlimit(10_000)
+sys.set_int_max_str_digits(0)
 
 import intervals  # noqa: E402
 from expressions import NODES, BadPoint, NotCheckable, reach  # noqa: E402
@@ -227,8 +228,14 @@ def examine(cx, verdict, table):
         return (REJECTED, f"it is true: {why}") if outcome == CONFIRMED else (OPEN, "it is not proved, and no refutation of this kind is read")
     except NotCheckable as why:
         return OPEN, str(why)
+    except BadPoint as why:
+        return OPEN, f"no point was found at which everything that the claim speaks of exists: {why}"
+    except (RecursionError, MemoryError):
+        return OPEN, "expressions too deep for this program"
     except (KeyError, ValueError, TypeError, IndexError, ZeroDivisionError, ArithmeticError) as slip:
         return REJECTED, f"what the record holds cannot be read: {slip!r}"
+    except Exception as slip:  # What this program did not foresee is no fault of the record.
+        return OPEN, f"this check ended with {slip!r}"
 
 
 def check(record, seed=0, only=""):
@@ -238,7 +245,7 @@ def check(record, seed=0, only=""):
         raise ValueError("it is no record of a study")
     try:
         cx = (functionals.Context if record.get("functional") else Context)(record, seed)
-    except NotCheckable as why:
+    except (NotCheckable, BadPoint, RecursionError) as why:
         return [(full(v), v["verdict"], OPEN, str(why)) for v in record["verdicts"] if only in full(v)]
     lines = []
     for verdict in record["verdicts"]:
@@ -260,7 +267,9 @@ def main(arguments):
         record = json.loads(pathlib.Path(words[0]).read_text(encoding="utf-8"))
         seed = int(options.get("--seed", random.SystemRandom().randrange(2**32)))
         lines = check(record, seed, options.get("--only", ""))
-    except (OSError, ValueError, KeyError, TypeError) as problem:
+    except KeyboardInterrupt:
+        return 130
+    except Exception as problem:  # Nothing that a file holds ends this program with a trace of its own lines.
         print(f"the record cannot be read: {problem!r}", file=sys.stderr)
         return 2
     if "--json" in arguments:

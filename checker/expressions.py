@@ -4,6 +4,7 @@ from fractions import Fraction
 
 # An expression is a number: the place of its node (operation, arguments...). Arguments stand before what is made of them.
 NODES, PLACES = [], {}
+LONGEST = 1_000_000  # bits of a number
 
 
 class NotCheckable(Exception):
@@ -37,22 +38,22 @@ def value_of(e):
 
 
 def add(a, b):
+    if a == ZERO or b == ZERO:
+        return b if a == ZERO else a
     x, y = value_of(a), value_of(b)
     if x is not None and y is not None:
         return num(x + y)
-    if x == 0 or y == 0:
-        return b if x == 0 else a
     return node("+", min(a, b), max(a, b))
 
 
 def mul(a, b):
+    if a == ZERO or b == ZERO:
+        return ZERO
+    if a == ONE or b == ONE:
+        return b if a == ONE else a
     x, y = value_of(a), value_of(b)
     if x is not None and y is not None:
         return num(x * y)
-    if x == 0 or y == 0:
-        return ZERO
-    if x == 1 or y == 1:
-        return b if x == 1 else a
     return node("*", min(a, b), max(a, b))
 
 
@@ -79,6 +80,8 @@ def power(a, b):
     if y == 0 or y == 1:
         return ONE if y == 0 else a
     if x is not None and y.denominator == 1 and (x != 0 or y > 0):
+        if abs(y) * max(x.numerator.bit_length(), x.denominator.bit_length()) > LONGEST:
+            raise NotCheckable("a number with too many digits")
         return num(x ** int(y))
     return node("^", a, y)
 
@@ -273,7 +276,7 @@ def derive(roots, of_symbol):
             d[e] = add(mul(d[args[0]], args[1]), mul(args[0], d[args[1]]))
         elif op == "^":
             a, n = args
-            d[e] = mul(mul(num(n), power(a, num(n - 1))), d[a])
+            d[e] = ZERO if d[a] == ZERO else mul(mul(num(n), power(a, num(n - 1))), d[a])
         elif op == "atan2":
             y, x = args
             d[e] = div(sub(mul(x, d[y]), mul(y, d[x])), add(mul(x, x), mul(y, y)))

@@ -63,6 +63,8 @@ def is_manifestly_positive(e):
     """Whether an expression is positive for positive parameters, or assumed to be: a sum of squares and of such."""
     if e not in POSITIVE:
         for c in reach([e]):
+            if c in POSITIVE:
+                continue
             op, *args = NODES[c]
             own = {
                 "number": lambda: args[0] > 0, "pi": lambda: True, "exp": lambda: True, "abs": lambda: True,

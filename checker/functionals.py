@@ -1,16 +1,11 @@
-"""Functionals of fields over space: the lowered text of a record, its first variation, and points of what is stated (theory 4).
-
-A point is a value modulo a prime for every jet. Stated equations are solved for some jets, their leaders; derivatives of a leader
-follow from the derivatives of the equation. A constitutive function has random derivatives at each of its arguments, so that what
-vanishes does so for every energy; its Legendre conjugate has the derivatives that follow: s = A'(e), B'(s) = e, B''(s) = A''(e)^-1.
-"""
+"""Functionals of fields over space: the lowered text of a record and its first variation (theory 4)."""
 import itertools
 import random
 import tomllib
 
-from expressions import NODES, ONE, ZERO, BadPoint, NotCheckable, add, div, mul, neg, num, sub, substitute, sym, symbols, total
-from fields import Point, draw_prime, solve
-from index_notation import Scope, slots
+from expressions import NODES, ONE, ZERO, BadPoint, NotCheckable, add, div, mul, neg, num, reach, sub, sym, symbols, total
+from index_notation import Scope
+from jets import Jets
 
 
 class Functional:
@@ -211,235 +206,6 @@ class Equation:
                 self.residuals = [piece.put(e) for e in self.residuals]
 
 
-class Jets(Point):
-    """A point of the jets: random where nothing is stated, else by the rules, pairs of residuals and leaders."""
-
-    def __init__(self, functional, rng, rules=(), place=None):
-        super().__init__(rng, draw_prime(rng))
-        self.functional, self.scope = functional, functional.scope
-        self.rules, self.known, self.busy, self.bases = list(rules), {}, set(), {}
-        # Whether a derivative along a curved piece of what holds there was drawn at random.
-        self.loose, self.place = False, place or {}
-        self.across = next((self.scope.coordinates.index(name) for name, kind in self.place if kind == "x"), None)
-        d = functional.d
-        if d == 1:
-            normal = [rng.choice([1, self.p - 1])]
-        else:
-            c, s = self.unit()
-            normal = [c, s] if d == 2 else [c * x % self.p for x in self.unit()] + [s]
-        self.known.update({(f"n_{i + 1}", "n"): x for i, x in enumerate(normal)})
-        self.bend(normal)
-
-    def bend(self, n):
-        """A random curvature: symmetric, and nothing across the piece, as the normal stays a unit vector."""
-        d, p, loose = range(len(n)), self.p, [[self.any() for _ in n] for _ in n]
-        flat = [[(int(i == j) - n[i] * n[j]) % p for j in d] for i in d]
-        for i in d:
-            for j in d:
-                own = sum(flat[i][k] * (loose[k][l] + loose[l][k]) * flat[l][j] for k in d for l in d) % p
-                self.known[f"curvature_{min(i, j) + 1}{max(i, j) + 1}", "k"] = own
-
-    def unit(self):
-        u = self.any()
-        over = self.inverse(1 + u * u)
-        return (1 - u * u) * over % self.p, 2 * u * over % self.p
-
-    def coefficients(self, name, order, n):
-        return [self.of_symbol(name, order)] + [0] * (n - 1)
-
-    def of_symbol(self, name, order):
-        key = (name, order)
-        if key in self.known:
-            return self.known[key]
-        if isinstance(name, tuple):
-            return self.known.setdefault(key, self.of_function(name[0], tuple(self.values(list(name[1]))), order))
-        if key in self.place:
-            self.known[key] = self.value(self.place[key])
-            return self.known[key]
-        if name in self.scope.jets:
-            for residuals, leaders, axes in self.rules:
-                for leader in leaders:
-                    if leader[0] == name and len(leader[1]) <= len(order):
-                        rest = list(order)
-                        if all(a in rest and not rest.remove(a) for a in leader[1]):
-                            if axes is not None and not set(rest) <= axes and leader[0] not in self.functional.of_boundary:
-                                self.loose = self.loose or bool(set(rest) - axes - {self.across})
-                                continue
-                            return self.lead(residuals, leaders, tuple(rest), key)
-        return self.known.setdefault(key, self.positive() if order == 0 else self.any())
-
-    def lead(self, residuals, leaders, rest, key):
-        targets = [(name, tuple(sorted((*order, *rest)))) for name, order in leaders]
-        if set(targets) & self.busy:
-            raise NotCheckable("equations that are not solved one after the other")
-        self.busy |= set(targets)
-        moved = [self.scope.totals(e, rest) for e in residuals]
-        slopes = [self.scope.partial(e, t) for e in moved for t in targets]
-        for t in targets:
-            self.known[t] = 0
-        right, matrix = self.values(moved), self.values(slopes)
-        n = len(targets)
-        x = solve([matrix[i * n:(i + 1) * n] for i in range(len(moved))], [-r % self.p for r in right], self.p)
-        if x is None:
-            raise BadPoint("equations that contradict each other here")
-        self.known.update(zip(targets, x))
-        self.busy -= set(targets)
-        return self.known[key]
-
-    # --- constitutive functions
-    def base(self, name, e):
-        """f'(e), and the derivatives of f' and f'' by the independent components, at values e."""
-        own = self.scope.functions[name]
-        hold = [(("slot", name), (k,)) for k in range(len(e))]
-        before = {h: self.known.pop(h) for h in hold if h in self.known}
-        self.known.update(zip(hold, e))
-        saved = {k: v for k, v in self.known.items() if isinstance(k[0], tuple) and k[0][0] != "slot"}
-        for k in saved:
-            del self.known[k]
-        args = tuple(sym(*h) for h in hold)
-        first = [self.scope.function(name, args, (k,)) for k in range(len(e))]
-        second = [[self.scope.partial(g, h) for h in hold] for g in first]
-        def third():
-            return [[[self.scope.partial(m, h) for h in hold] for m in row] for row in second]
-        out = self.values(first), lambda: self.table_at(name, e, second), lambda: [self.table_at(name, e, row) for row in third()]
-        self.restore(hold, before, saved)
-        return out
-
-    def table_at(self, name, e, rows):
-        hold = [(("slot", name), (k,)) for k in range(len(e))]
-        before = {h: self.known.pop(h) for h in hold if h in self.known}
-        saved = {k: v for k, v in self.known.items() if isinstance(k[0], tuple) and k[0][0] != "slot"}
-        for k in saved:
-            del self.known[k]
-        self.known.update(zip(hold, e))
-        out = self.table(rows)
-        self.restore(hold, before, saved)
-        return out
-
-    def restore(self, hold, before, saved):
-        for key in [k for k in self.known if isinstance(k[0], tuple) and k[0][0] != "slot"] + hold:
-            self.known.pop(key, None)
-        self.known.update(before | saved)
-
-    def is_second(self, name):
-        """Whether a function is the conjugate of one that stands before it."""
-        other, all_ = self.scope.functions[name].get("conjugate"), list(self.scope.functions)
-        return other in all_ and all_.index(other) < all_.index(name)
-
-    def of_function(self, name, args, by):
-        if self.is_second(name):
-            return self.of_conjugate(name, args, by)
-        own = self.bases.setdefault((name, args), {})
-        return own.setdefault(by, self.any())
-
-    def strain(self, name, s):
-        """A new strain whose stress, given by a gradient linear in that of another function, is s."""
-        text, n = self.scope.functions[name]["gradient"], len(s)
-        others = [g for g, own in self.scope.functions.items() if g + "'" in text and "gradient" not in own and not self.is_second(g)]
-        if len(others) != 1:
-            raise NotCheckable("a conjugate whose function has a gradient of another kind")
-        e = tuple(self.any() for _ in s)
-        def stress(x):
-            self.bases[others[0], e] = {(k,): y for k, y in enumerate(x)}
-            return self.base(name, e)[0]
-        zero = stress([0] * n)
-        columns = [stress([int(i == j) for i in range(n)]) for j in range(n)]
-        rows = [[(columns[j][i] - zero[i]) % self.p for j in range(n)] for i in range(n)]
-        x = solve(rows, [(a - b) % self.p for a, b in zip(s, zero)], self.p)
-        if x is None:
-            raise BadPoint("a stress that no strain has")
-        stress(x)
-        return e
-
-    def points(self, size):
-        return [e for (_, e) in list(self.bases) if len(e) == size]
-
-    def of_conjugate(self, name, s, by):
-        first, n = self.scope.functions[name]["conjugate"], len(s)
-        times = [m for _, m in slots(self.scope.functions[name]["of"], self.functional.d)]
-        e = next((e for e in self.points(n) if tuple(self.base(first, e)[0]) == s), None)
-        if e is None and "gradient" in self.scope.functions[first]:
-            e = self.strain(first, s)
-        if e is None:
-            e = tuple(self.any() for _ in s)
-            self.bases[first, e] = {(k,): x for k, x in enumerate(s)}
-        if not by:
-            value = self.of_function(first, e, ())
-            return (sum(m * a * b for m, a, b in zip(times, s, e)) - value) % self.p
-        if len(by) == 1:
-            return e[by[0]]
-        _, second, third = self.base(first, e)
-        columns = [solve(second(), [int(i == j) for i in range(n)], self.p) for j in range(n)]
-        inverse = [[columns[j][i] for j in range(n)] for i in range(n)]
-        over = lambda k: self.inverse(times[k])
-        if len(by) == 2:
-            return inverse[by[0]][by[1]] * over(by[1]) % self.p
-        if len(by) > 3:
-            raise NotCheckable("derivatives of a conjugate above the third")
-        a, b, c = by
-        m3 = third()
-        turned = sum(inverse[a][i] * m3[i][j][k] * inverse[j][b] * inverse[k][c] for i in range(n) for j in range(n) for k in range(n))
-        return -turned * over(b) * over(c) % self.p
-
-
-def is_nothing(functional, e):
-    """Whether an expression vanishes for all fields, as what is imposed by a definition does."""
-    return not any(Jets(functional, random.Random(k)).value(e) for k in (1, 2)) if e != ZERO else True
-
-
-def rules_of(functional, equations, piece=None):
-    """Equations solved: each group of residuals with as many leaders, jets in which they are linear; those with the least choice first."""
-    data = {c for name in functional.data.get("data", {}) for c, _ in functional.scope.fields[name]}
-    residuals = [(k, r) for k, e in enumerate(equations) for r in dict.fromkeys(e.residuals) if not is_nothing(functional, r)]
-    wide = {r: len(list(candidates(functional, r, data, set(), piece))) for _, r in residuals}
-    residuals.sort(key=lambda own: wide[own[1]])
-    led = {}
-    def choose(at):
-        if at == len(residuals):
-            return True
-        for found in candidates(functional, residuals[at][1], data, set(led.values()), piece):
-            led[at] = found
-            if choose(at + 1):
-                return True
-            del led[at]
-        return False
-    if not choose(0):
-        raise NotCheckable("what is stated is not solved for jets in which it is linear")
-    rules = []
-    for k in range(len(equations)):
-        own = [at for at, (group, _) in enumerate(residuals) if group == k]
-        if own:
-            axes = None if piece is None else set() if piece.axis is None else set(range(len(functional.scope.coordinates))) - {piece.axis}
-            rules.append(([residuals[at][1] for at in own], [led[at] for at in own], axes))
-    return rules
-
-
-def candidates(functional, residual, data, taken, piece=None):
-    """Jets in which a residual is linear, the best leader first: data, then what is not differentiated, then the highest derivative.
-
-    Of the jets of a component only the highest leads, since the others follow by differentiation from it; on a piece of the boundary
-    derivatives across it are values of their own."""
-    own = [s for s in symbols([residual]) if s[0] in functional.scope.jets]
-    inside = set()
-    for name, _ in symbols([residual]):
-        if isinstance(name, tuple) and name[0] != "slot":
-            for a in name[1]:
-                inside |= set(functional.jets_of(a))
-    height = lambda jet: (len(jet[1]), [-a for a in jet[1]])
-    top = {name: max((j for j in own if j[0] == name), key=height) for name, _ in own}
-    def clash(a, b):
-        if a[0] != b[0]:
-            return False
-        if piece is not None:
-            across = lambda jet: len(jet[1]) if piece.axis is None else jet[1].count(piece.axis)
-            return a == b or across(a) == across(b) and piece.axis is not None
-        return set(a[1]) <= set(b[1]) or set(b[1]) <= set(a[1])
-    def is_free(jet):
-        slope = functional.scope.partial(residual, jet)
-        return not any(clash(jet, t) for t in taken) and jet not in inside and slope != ZERO and jet not in functional.jets_of(slope)
-    return (jet for jet in sorted(top.values(), key=lambda jet: (jet[0] not in data, bool(jet[1]), -len(jet[1]), jet[1], jet[0])) if is_free(jet))
-
-
 class Context:
     """A record of a functional under examination."""
 
@@ -465,8 +231,23 @@ class Context:
                 if any(point.values(list(es))):
                     if point.loose:
                         raise NotCheckable("derivatives along a curved piece of what holds there")
+                    self.without_hidden_relations(functional, [*es, *(r for own in rules for r in own[0])])
                     return False
                 done += 1
             except BadPoint:
                 continue
         return True
+
+    def without_hidden_relations(self, functional, es):
+        """Values of logarithms, and of exponentials where rules hold, are drawn by how they are written: they may be tied all the same."""
+        stack, seen = list(es), set()
+        while stack:
+            for c in reach([stack.pop()]):
+                key = NODES[c]
+                if c in seen:
+                    continue
+                seen.add(c)
+                if key[0] in ("log", "exp", "sin", "cos", "atan2", "abs", "sign"):
+                    raise NotCheckable("logarithms, arcs or exponentials that may depend on each other")
+                if key[0] == "symbol" and isinstance(key[1], tuple) and key[1][0] != "slot":
+                    stack.extend(key[1][1])

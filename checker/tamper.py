@@ -119,9 +119,26 @@ def of_functional(record):
             claim = {"flux": "duality", "valu": "solution", "at\" ": "degeneration"}.get(before[1:5], "degeneration")
             yield word, f"functional.{claim}", put(flat.replace(before, after, 1))
     for k, verdict in enumerate(record["verdicts"]):
+        for word, change in of_current(verdict, more):
+            yield word, full(verdict), record | {"verdicts": changed(record["verdicts"], k, verdict | change)}
         if " modulo " in verdict["detail"] and verdict["claim"] == "functional.duality":
             entry = verdict | {"detail": verdict["detail"].split(" modulo ")[0]}
             yield "no equations named", full(verdict), record | {"verdicts": changed(record["verdicts"], k, entry)}
+
+
+def of_current(verdict, more):
+    """Changes of a current, of its defect, and of the exponents of a scaling."""
+    if verdict["claim"] != "functional.noether":
+        return
+    for i, text in enumerate(verdict["formulas"]):
+        caption, _, right = text.partition(": ")
+        head, _, right = right.rpartition("solutions: ") if caption == "the defect" else ("", "", right)
+        caption += ": " + (head + "solutions: " if head else "")
+        for word, other in (("of other sign", f"-({right})"), ("with a term added", f"{right} + {more}"), ("twice", f"2 ({right})")):
+            yield f"{caption}{word}", {"formulas": changed(verdict["formulas"], i, caption + other)}
+    exponent = re.search(r"with the exponent (-?[0-9/]+)", verdict["detail"])
+    if exponent:
+        yield "another exponent", {"detail": verdict["detail"].replace(exponent[0], f"with the exponent {exponent[1]}1")}
 
 
 def changed(items, i, item):
@@ -136,7 +153,8 @@ def tampered(record, confirmed):
                 yield word, claim, false
         for k, verdict in enumerate(record["verdicts"]):
             if full(verdict) in confirmed:
-                yield "refuted", full(verdict), record | {"verdicts": changed(record["verdicts"], k, verdict | {"verdict": "refuted"})}
+                word = "refuted" if verdict["verdict"] == "proved" else "proved"
+                yield word, full(verdict), record | {"verdicts": changed(record["verdicts"], k, verdict | {"verdict": word})}
         return
     for k, verdict in enumerate(record["verdicts"]):
         if full(verdict) in confirmed:

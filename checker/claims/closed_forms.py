@@ -6,7 +6,8 @@ import itertools
 
 from expressions import NotCheckable, ZERO, sub
 from fields import solve
-from functionals import Functional, Jets
+from functionals import Functional
+from jets import Jets
 
 NODES_OF_RULE = 12
 

@@ -13,7 +13,7 @@
 //! * [`functional`]: a functional as plain data.
 //! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
 //! * [`integral`]: exact integrals of polynomials.
-//! * [`polynomial`], [`ritz`]: polynomials with rational coefficients, and Ritz's method.
+//! * [`polynomial`], [`ritz`], `ritz_base`, `linear`: polynomials with rational coefficients, Ritz's method, its base, and linear equations.
 //! * [`study`](mod@study): all claims about one model file.
 
 pub mod boundary;
@@ -22,10 +22,12 @@ mod conjugation;
 pub mod elimination;
 pub mod functional;
 pub mod integral;
+mod linear;
 pub mod notation;
 pub mod polynomial;
 pub mod read;
 pub mod ritz;
+mod ritz_base;
 pub mod space;
 pub mod study;
 pub mod tensors;
@@ -33,4 +35,4 @@ pub mod variation;
 
 pub use functional::{Functional, Problem};
 pub use read::{load, Loaded};
-pub use study::{study, Decided, Study};
+pub use study::{study, study_at, Decided, Pace, Study};

@@ -107,6 +107,13 @@ impl Polynomial {
         })
     }
 
+    /// Exponents by axis with their coefficients.
+    pub fn terms(&self) -> impl Iterator<Item = (&[u32], &Rational)> {
+        self.0
+            .iter()
+            .map(|(exponents, value)| (&exponents[..], value))
+    }
+
     /// Adds a multiple of another one.
     pub fn add(&mut self, other: &Polynomial, factor: &Rational) {
         for (exponents, value) in &other.0 {
@@ -221,41 +228,4 @@ impl Polynomial {
         });
         g.add(&terms.collect::<Vec<_>>())
     }
-}
-
-/// The solution of `matrix x = right` by elimination; `None` where the matrix is singular. With it the pivots.
-pub fn solution(
-    mut matrix: Vec<Vec<Rational>>,
-    mut right: Vec<Rational>,
-) -> Option<(Vec<Rational>, Vec<Rational>)> {
-    let n = right.len();
-    let mut pivots = Vec::with_capacity(n);
-    for k in 0..n {
-        let row = (k..n).find(|&r| matrix[r][k] != Rational::ZERO)?;
-        matrix.swap(k, row);
-        right.swap(k, row);
-        pivots.push(matrix[k][k].clone());
-        for r in k + 1..n {
-            let factor = &matrix[r][k] / &matrix[k][k];
-            if factor == Rational::ZERO {
-                continue;
-            }
-            let pivot_row = matrix[k].clone();
-            for (own, above) in matrix[r].iter_mut().zip(&pivot_row).skip(k) {
-                let term = rational::product(&factor, above);
-                *own = &*own - &term;
-            }
-            let term = rational::product(&factor, &right[k]);
-            right[r] = &right[r] - &term;
-        }
-    }
-    let mut x = vec![Rational::ZERO; n];
-    for k in (0..n).rev() {
-        let mut sum = right[k].clone();
-        for c in k + 1..n {
-            sum -= rational::product(&matrix[k][c], &x[c]);
-        }
-        x[k] = sum / &matrix[k][k];
-    }
-    Some((x, pivots))
 }

@@ -1,7 +1,9 @@
 //! Ritz's method: the stationary polynomial of a quadratic functional, with exact integrals (W. Ritz 1909).
 
-use crate::functional::{Functional, Side};
-use crate::polynomial::{solution, Domain, Polynomial};
+use crate::functional::Functional;
+use crate::linear::System;
+use crate::polynomial::{Domain, Polynomial};
+use crate::ritz_base::Base;
 use crate::space::Jet;
 use chetaev_symbolic::{rational, Expr, Rational};
 use std::collections::BTreeMap;
@@ -48,12 +50,6 @@ impl std::fmt::Display for RitzError {
 
 impl std::error::Error for RitzError {}
 
-/// A base function of a component.
-struct Base {
-    component: usize,
-    polynomial: Polynomial,
-}
-
 /// A quadratic density on a domain: second and first derivatives by jets, and the value at zero.
 struct Quadratic {
     domain: Domain,
@@ -62,7 +58,7 @@ struct Quadratic {
     constant: Polynomial,
 }
 
-/// The stationary polynomials of one degree.
+/// The stationary polynomials of one degree. Work is counted: products and sums of rational numbers.
 ///
 /// # Errors
 /// [`RitzError`].
@@ -74,43 +70,37 @@ pub fn approximation(
     let space = &*functional.space;
     let at = |e: Expr| with_values(functional, asked, e);
     let domain = Domain::of(space, &functional.intervals, &at).ok_or(RitzError::Box)?;
-    if domain.intervals.len() != space.coordinates.len() {
+    let is_flat = |(_, lower, upper): &(usize, Rational, Rational)| lower == upper;
+    if domain.intervals.len() != space.coordinates.len() || domain.intervals.iter().any(is_flat) {
         return Err(RitzError::Box);
     }
-    let base = base(functional, &domain, degree);
+    let base = Base::new(functional, &domain, degree as usize);
     let mut parts = Vec::new();
     for piece in &functional.pieces {
         let face = domain.face(&piece.side).ok_or(RitzError::Box)?;
         parts.push(quadratic(functional, at(piece.density), face)?);
     }
     parts.push(quadratic(functional, at(functional.density), domain)?);
-    let n = base.len();
-    let mut matrix = vec![vec![Rational::ZERO; n]; n];
-    let mut right = vec![Rational::ZERO; n];
+    let mut system = System::new(base.unknowns());
     for part in &parts {
-        part.assemble(&base, &mut matrix, &mut right);
+        part.assemble(&base, &mut system);
     }
-    let (x, pivots) = solution(matrix, right.clone()).ok_or(RitzError::Singular)?;
-    let mut fields: BTreeMap<usize, Polynomial> = BTreeMap::new();
+    let right = system.right.clone();
+    let solved = system.solution().ok_or(RitzError::Singular)?;
     // At a stationary point of a quadratic function: the constant and half of the linear part.
     let mut value = Rational::ZERO;
     for part in &parts {
         value = rational::sum(&value, &part.constant.integral(&part.domain));
     }
-    for ((own, coefficient), right) in base.iter().zip(&x).zip(&right) {
-        fields
-            .entry(own.component)
-            .or_default()
-            .add(&own.polynomial, coefficient);
-        let half = rational::product(coefficient, right) / rational::integer(2);
-        value -= half;
+    for (coefficient, right) in solved.values.iter().zip(&right) {
+        value -= rational::product(coefficient, right) / rational::integer(2);
     }
     Ok(Approximation {
         degree,
-        unknowns: n,
-        fields: fields.into_iter().collect(),
+        unknowns: base.unknowns(),
+        fields: base.fields(&solved.values),
         value,
-        is_minimum: pivots.iter().all(|p| !rational::is_negative(p)),
+        is_minimum: solved.is_definite,
     })
 }
 
@@ -129,62 +119,6 @@ pub fn with_values(functional: &Functional, asked: &Asked, e: Expr) -> Expr {
             None => find(own),
         }
     })
-}
-
-/// Polynomials that satisfy what is given on the faces: a factor for a value, two for a value with its slope.
-fn base(functional: &Functional, domain: &Domain, degree: u32) -> Vec<Base> {
-    let mut found = Vec::new();
-    for field in functional.interior() {
-        for &component in &field.components {
-            let mut factor = Polynomial::constant(rational::integer(1));
-            for piece in &functional.pieces {
-                let Side::Flat { axis, is_upper, .. } = piece.side else {
-                    continue;
-                };
-                let Some((_, lower, upper)) =
-                    domain.intervals.iter().find(|(own, _, _)| *own == axis)
-                else {
-                    continue;
-                };
-                let mut exponents = vec![0; axis + 1];
-                exponents[axis] = 1;
-                let mut line = Polynomial::monomial(exponents, rational::integer(1));
-                let at = if is_upper { upper } else { lower };
-                line.add(&Polynomial::constant(at.clone()), &rational::integer(-1));
-                for is_normal in [false, true] {
-                    if piece.fixed.contains(&(component, is_normal)) {
-                        factor = factor.times(&line);
-                    }
-                }
-            }
-            for exponents in tuples(domain.intervals.len(), degree) {
-                let own = Polynomial::monomial(exponents, rational::integer(1));
-                found.push(Base {
-                    component,
-                    polynomial: factor.times(&own),
-                });
-            }
-        }
-    }
-    found
-}
-
-/// All exponents up to a degree by each variable.
-fn tuples(count: usize, degree: u32) -> Vec<Vec<u32>> {
-    let mut all = vec![Vec::new()];
-    for _ in 0..count {
-        all = all
-            .into_iter()
-            .flat_map(|own: Vec<u32>| {
-                (0..=degree).map(move |n| {
-                    let mut longer = own.clone();
-                    longer.push(n);
-                    longer
-                })
-            })
-            .collect();
-    }
-    all
 }
 
 fn quadratic(functional: &Functional, e: Expr, domain: Domain) -> Result<Quadratic, RitzError> {
@@ -218,37 +152,16 @@ fn quadratic(functional: &Functional, e: Expr, domain: Domain) -> Result<Quadrat
 }
 
 impl Quadratic {
-    fn assemble(&self, base: &[Base], matrix: &mut [Vec<Rational>], right: &mut [Rational]) {
+    fn assemble(&self, base: &Base, system: &mut System) {
         for (jet, coefficient) in &self.first {
-            for (i, own) in base
-                .iter()
-                .enumerate()
-                .filter(|(_, b)| b.component == jet.component)
-            {
-                let term = own
-                    .polynomial
-                    .slopes(&jet.by)
-                    .times(coefficient)
-                    .integral(&self.domain);
-                right[i] -= term;
+            for (i, value) in base.linear(jet, coefficient, &self.domain) {
+                system.add_right(i, &-value);
             }
         }
         for ((a, b), coefficient) in &self.second {
-            let columns: Vec<(usize, Polynomial)> = of(base, b).collect();
-            for (i, row) in of(base, a) {
-                let row = row.times(coefficient);
-                for (j, column) in &columns {
-                    matrix[i][*j] += row.times(column).integral(&self.domain);
-                }
+            for ((i, j), value) in base.bilinear(a, b, coefficient, &self.domain) {
+                system.add(i, j, &value);
             }
         }
     }
-}
-
-fn of<'b>(base: &'b [Base], jet: &'b Jet) -> impl Iterator<Item = (usize, Polynomial)> + 'b {
-    let own = base
-        .iter()
-        .enumerate()
-        .filter(|(_, b)| b.component == jet.component);
-    own.map(|(i, b)| (i, b.polynomial.slopes(&jet.by)))
 }

@@ -3,10 +3,13 @@
 use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
 use chetaev::functionals::read::reload;
+use chetaev::functionals::study::USUAL_BUDGET as BUDGET;
 use chetaev::functionals::{self, Loaded, Problem};
 use chetaev::model::model::ModelText;
 use chetaev::model::{self, Files, Sources, Style};
-use chetaev::study::functional::{derivation, is_selected, page, record, selected, summary};
+use chetaev::study::functional::{
+    derivation, is_selected, page, record, selected, studied, summary,
+};
 use chetaev::study::summary::Style as SummaryStyle;
 use chetaev::study::written::Notation;
 use pyo3::prelude::*;
@@ -222,7 +225,7 @@ impl Functional {
         let found = waiting::done(py, tell, |hooks| {
             (hooks.progress)("deciding", None);
             let problem = reload(text).problem?;
-            let study = functionals::study(problem, &|id| is_selected(&words, id), hooks.clock);
+            let study = studied(problem, &|id| is_selected(&words, id), BUDGET, hooks);
             Some(Studied {
                 record: serde_json::to_string(&record(&study, &words, &[])).unwrap_or_default(),
                 summary: summary(&study, SummaryStyle::Plain),

@@ -123,7 +123,7 @@ pub fn verify(
     hooks: &mut Hooks<'_>,
 ) -> Result<Vec<Verified>, VerifyError> {
     if record.functional.is_some() {
-        return crate::functional::verify(record, &texts(record));
+        return crate::functional::verify(record, &texts(record), budget, hooks);
     }
     // Variations along the motion have a seed of their own.
     let of_proofs = |v: &&VerdictRecord| !v.claim.starts_with("witness.");

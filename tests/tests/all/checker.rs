@@ -103,6 +103,8 @@ fn functionals() -> &'static [PathBuf] {
             ("elasticity/pc", bar),
             ("fields/plate", &[]),
             ("fields/minimal-surface", &[]),
+            ("fields/elastic-plane", &[]),
+            ("fields/crack", &[]),
         ];
         let study = |(name, set): (&str, &[&str])| {
             let folder = scratch(&format!("checker-{}", name.replace('/', "-")));
@@ -112,6 +114,118 @@ fn functionals() -> &'static [PathBuf] {
         };
         models.into_iter().map(study).collect()
     })
+}
+
+/// E2 of the theory, §5: the strain is not determined by its deviator, and equations of the pressure and the volume need each other. With
+/// it a body under a force, of which no translation is a symmetry.
+const PROJECTOR: &str = r#"
+kind = "functional"
+name = "projector"
+density = "K2/2 e_ii e_jj - 1/2 e_ii s_jj - (s_ij s_ij - 1/2 s_ii s_jj)/(4 G) + D_ij s_ij - F_k u_k"
+yields = ["pressure", "volume", "shear", "equilibrium"]
+symmetries = ["translations"]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[parameters]
+K2 = {}
+G = {}
+[data]
+F = "vector"
+[fields]
+e = "symmetric"
+s = "symmetric"
+u = "vector"
+[define]
+D_ij = "1/2 (u_i,j + u_j,i)"
+[boundary]
+S = { fixed = ["u"] }
+[equations]
+pressure = "s_ii = 2 K2 e_ii"
+volume = "e_ii = D_ii"
+shear = "s_ij - 1/2 s_kk delta_ij = 2 G (D_ij - 1/2 D_kk delta_ij)"
+equilibrium = "s_ij,i + F_j = 0"
+"#;
+
+#[test]
+fn equations_that_need_each_other_are_solved_together() {
+    if !has_python() {
+        return;
+    }
+    let folder = scratch("checker-projector");
+    let model = folder.join("model.toml");
+    std::fs::write(&model, PROJECTOR).expect("a scratch file");
+    run(&["study", text(&model), "--out", text(&folder)]);
+    let record = folder.join("study.json");
+    let finished = run(&["verify", text(&record), "--independent", "--json"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let lines = finished.json();
+    let find = |id: &str| {
+        let all = lines.as_array().expect("an array");
+        let own = all.iter().find(|line| line["claim"] == id);
+        own.expect(id).clone()
+    };
+    let euler = find("functional.euler#projector");
+    assert_eq!(
+        (&euler["verdict"], &euler["outcome"]),
+        (&"proved".into(), &"confirmed".into())
+    );
+    let moved = find("functional.noether#translation-x_1");
+    assert_eq!(
+        (&moved["verdict"], &moved["outcome"]),
+        (&"refuted".into(), &"confirmed".into())
+    );
+}
+
+/// Each kind of claim is one short file that a person reads at once.
+#[test]
+fn checks_are_short_files_of_one_kind() {
+    for entry in std::fs::read_dir(root().join("checker/claims")).expect("the folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|own| own == "py") {
+            let lines = std::fs::read_to_string(&path).expect("a file");
+            assert!(lines.lines().count() <= 100, "{}", path.display());
+        }
+    }
+}
+
+/// What a record holds may be more than this program reads: it says so, and does not end with a trace of its own lines.
+#[test]
+fn nothing_in_a_record_makes_the_checker_fail() {
+    if !has_python() {
+        return;
+    }
+    let whole = std::fs::read_to_string(&functionals()[6]).expect("a record");
+    let folder = scratch("checker-odd");
+    let record = folder.join("study.json");
+    let deep = format!("{}u{}", "(".repeat(30_000), ")".repeat(30_000));
+    let long = "7".repeat(100_000);
+    for density in [
+        "u/0",
+        "2^(2^(2^100)) u",
+        "log(0) u",
+        "u^(1/0)",
+        "((",
+        deep.as_str(),
+        long.as_str(),
+    ] {
+        let mut own: serde_json::Value = serde_json::from_str(&whole).expect("JSON");
+        let flat = own["model"]["flat"].as_str().expect("a text");
+        let line = flat.lines().find(|line| line.starts_with("density = "));
+        let flat = flat.replacen(
+            line.expect("a density"),
+            &format!("density = \"{density}\""),
+            1,
+        );
+        own["model"]["flat"] = flat.into();
+        std::fs::write(&record, own.to_string()).expect("a scratch file");
+        let finished = run(&["verify", text(&record), "--independent"]);
+        let said = finished.both();
+        assert!(!said.contains("Traceback"), "{said}");
+        assert!(matches!(finished.status, Some(0..=2)), "{said}");
+    }
 }
 
 #[test]

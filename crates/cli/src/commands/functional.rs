@@ -1,13 +1,18 @@
 //! What `study` and `check` do with a functional of fields over space.
 
-use super::error;
+use super::{error, with_hooks};
 use crate::arguments::{Notation, Study as Arguments};
-use crate::{files, terminal, DONE, INPUT, UNMET};
-use chetaev::functionals::{self, Loaded, Study};
-use chetaev::study::functional::{derivation, is_selected, page, record, selected, summary};
+use crate::{files, terminal, DONE, INPUT, STOPPED, UNMET};
+use chetaev::functionals::{Loaded, Study};
+use chetaev::study::functional::{
+    derivation, is_selected, page, record, selected, studied, summary,
+};
 use chetaev::study::record::WrittenRecord;
+use chetaev::study::{in_time, Hooks};
 use std::path::Path;
-use std::time::Instant;
+
+/// Seconds that the page, and the summary, may take after an interruption.
+const GRACE: f64 = 0.1;
 
 /// The file name of the report.
 const REPORT: &str = "report.html";
@@ -29,26 +34,39 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
         .out
         .clone()
         .unwrap_or_else(|| files::default_folder(&arguments.model.model));
-    let start = Instant::now();
     let wants = |id: &str| is_selected(&words, id);
-    let study = functionals::study(problem, &wants, &|| start.elapsed().as_secs_f64());
-    let json = match write_all(&study, &words, &folder) {
-        Ok(json) => json,
+    let done = with_hooks(|hooks| {
+        let study = studied(problem, &wants, arguments.budget, hooks);
+        (hooks.progress)("writing the report", None);
+        let written = write_all(&study, &words, &folder, hooks);
+        let told = match arguments.json {
+            true => Some(String::new()),
+            false => in_time(hooks, GRACE, || summary(&study, terminal::style())),
+        };
+        (study, written, told)
+    });
+    let (study, written, told) = done;
+    let written = match written {
+        Ok(written) => written,
         Err(problem) => {
             error(problem);
             return INPUT;
         }
     };
     if arguments.json {
-        terminal::out(&json);
+        terminal::out(&written.json);
     } else {
-        terminal::out(&summary(&study, terminal::style()));
-        terminal::out(&format!("\nreport: {}\n", folder.join(REPORT).display()));
+        terminal::out(&told.unwrap_or_default());
+        let report = match written.has_report {
+            true => folder.join(REPORT).display().to_string(),
+            false => "not written, as the study was interrupted".to_owned(),
+        };
+        terminal::out(&format!("\nreport: {report}\n"));
     }
-    if study.is_as_expected() {
-        DONE
-    } else {
-        UNMET
+    match study.is_as_expected() {
+        _ if study.is_interrupted => STOPPED,
+        true => DONE,
+        false => UNMET,
     }
 }
 
@@ -85,17 +103,34 @@ fn json(study: &Study, words: &[String], files: &[WrittenRecord]) -> String {
     text
 }
 
-/// Writes the report, then the record with its checksum; gives the record.
-fn write_all(study: &Study, words: &[String], folder: &Path) -> Result<String, String> {
-    let html = page(study, Some(terminal::command()));
-    files::write(&folder.join(REPORT), html.as_bytes())?;
-    let report = WrittenRecord {
-        name: REPORT.into(),
-        sha256: files::checksum(html.as_bytes()),
-    };
-    let json = json(study, words, &[report]);
+/// The record, and whether there is a report beside it.
+struct Written {
+    json: String,
+    has_report: bool,
+}
+
+/// Writes the report, then the record with its checksum.
+fn write_all(
+    study: &Study,
+    words: &[String],
+    folder: &Path,
+    hooks: &mut Hooks<'_>,
+) -> Result<Written, String> {
+    let mut all = Vec::new();
+    let html = in_time(hooks, GRACE, || page(study, Some(terminal::command())));
+    if let Some(html) = html {
+        files::write(&folder.join(REPORT), html.as_bytes())?;
+        all.push(WrittenRecord {
+            name: REPORT.into(),
+            sha256: files::checksum(html.as_bytes()),
+        });
+    }
+    let json = json(study, words, &all);
     files::write(&folder.join("study.json"), json.as_bytes())?;
-    Ok(json)
+    Ok(Written {
+        json,
+        has_report: !all.is_empty(),
+    })
 }
 
 /// Prints the equations of a functional that was read, in one notation.

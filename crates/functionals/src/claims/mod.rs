@@ -14,11 +14,13 @@ mod solution;
 
 use crate::functional::{Functional, Problem};
 use crate::notation::{written, Node};
+use crate::ritz::Approximation;
 use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
 use chetaev_model::decision::Found;
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::{Expr, Verdict};
+use std::cell::RefCell;
 
 /// A formula shown with a verdict.
 #[derive(Clone, Debug)]
@@ -94,13 +96,19 @@ pub struct Context<'p> {
     pub problem: &'p Problem,
     /// The first variation of its functional.
     pub variation: Result<Variation, VariationError>,
+    /// What Ritz's method found, by degree, for the report.
+    pub approximations: RefCell<Vec<Approximation>>,
 }
 
 impl<'p> Context<'p> {
     /// The first variation is taken once.
     pub fn new(problem: &'p Problem) -> Context<'p> {
         let variation = variation(&problem.functional);
-        Context { problem, variation }
+        Context {
+            problem,
+            variation,
+            approximations: RefCell::default(),
+        }
     }
 
     /// The functional.

@@ -52,6 +52,7 @@ impl Claim for Ritz {
         };
         let verdict = verdict(cx.functional(), variation, asked, &all, last);
         let formulas = formulas(cx.functional(), last);
+        cx.approximations.replace(all);
         Finding { verdict, formulas }
     }
 }

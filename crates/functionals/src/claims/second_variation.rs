@@ -2,6 +2,7 @@
 
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Interval, Solution, SpecialKind};
+use crate::linear::System;
 use crate::polynomial::{Domain, Polynomial};
 use crate::space::Component;
 use chetaev_integrate::{from_fn, integrate, Event, Options};
@@ -282,9 +283,14 @@ fn descending(mut matrix: Vec<Vec<Rational>>) -> Option<Vec<Rational>> {
         let pivot = matrix[k][k].clone();
         if rational::is_negative(&pivot) {
             // The first k components follow from the condition that their rows vanish.
-            let block: Vec<Vec<Rational>> = (0..k).map(|r| original[r][..k].to_vec()).collect();
-            let right: Vec<Rational> = (0..k).map(|r| -original[r][k].clone()).collect();
-            let (mut x, _) = crate::polynomial::solution(block, right)?;
+            let mut block = System::new(k);
+            for (r, row) in original.iter().enumerate().take(k) {
+                for (c, value) in row.iter().enumerate().take(k) {
+                    block.add(r, c, value);
+                }
+                block.add_right(r, &-row[k].clone());
+            }
+            let mut x = block.solution()?.values;
             x.push(rational::integer(1));
             x.resize(n, Rational::ZERO);
             return Some(x);

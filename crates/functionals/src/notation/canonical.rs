@@ -1,7 +1,7 @@
 //! Equal products are written the same way: names of summed letters, order of indices of symmetric tensors, order of factors.
 
-use super::terms::{letters, renamed, Term};
-use super::{print::written, Atom, Index, Kind, Node};
+use super::terms::{letters, readable, renamed, Term};
+use super::{print::spelled, Atom, Index, Kind, Node};
 use crate::tensors::{Scope, Shape};
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::syntax::Span;
@@ -54,7 +54,7 @@ fn canonical(term: Term, free: &[char], scope: &Scope) -> Option<(String, Term)>
                 let node = sorted(&renamed(factor, &pairs), scope);
                 (
                     rank_of(&node, scope),
-                    written(&node, scope, Format::Text),
+                    spelled(&node, scope, Format::Text),
                     node,
                 )
             })
@@ -141,14 +141,8 @@ fn sorted(node: &Node, scope: &Scope) -> Node {
 
 /// Letters that are no coordinates and not used.
 fn unused(free: &[char], scope: &Scope) -> Vec<char> {
-    let is_coordinate = |letter: &char| {
-        let mut all = scope.space.coordinates.iter();
-        all.any(|c| c.name == letter.to_string() || c.suffix == letter.to_string())
-    };
-    "ijklmnpqrsabcdefgh"
-        .chars()
-        .filter(|letter| !free.contains(letter) && !is_coordinate(letter))
-        .collect()
+    let all = readable(scope);
+    all.filter(|letter| !free.contains(letter)).collect()
 }
 
 /// All orders of 0, …, n − 1.

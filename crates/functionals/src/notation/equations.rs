@@ -30,6 +30,8 @@ pub struct Indexed {
 struct Densities {
     scope: Scope,
     inside: Node,
+    /// For each name, the terms of the density in which it stands, also in definitions that stand there.
+    places: BTreeMap<String, Vec<usize>>,
     pieces: BTreeMap<String, Node>,
     multipliers: BTreeSet<String>,
 }
@@ -39,6 +41,7 @@ impl Densities {
         let mut own = Densities {
             scope: functional.scope.clone(),
             inside: functional.tree.clone(),
+            places: BTreeMap::new(),
             pieces: BTreeMap::new(),
             multipliers: BTreeSet::new(),
         };
@@ -52,7 +55,60 @@ impl Densities {
                 own.add(equation, written)?;
             }
         }
+        let terms = own.terms().into_iter().enumerate();
+        let named: Vec<(usize, Vec<String>)> =
+            terms.map(|(at, term)| (at, own.named(&term.1))).collect();
+        for (at, names) in named {
+            for name in names {
+                own.places.entry(name).or_default().push(at);
+            }
+        }
         Some(own)
+    }
+
+    /// The density as a sum.
+    fn terms(&self) -> Vec<(bool, Node)> {
+        match &self.inside.kind {
+            Kind::Sum(terms) => terms.clone(),
+            _ => vec![(false, self.inside.clone())],
+        }
+    }
+
+    /// The part of the density in which some names stand: what else is in it has no variation by them.
+    fn about(&self, names: &[&str]) -> Node {
+        let places = names.iter().filter_map(|name| self.places.get(*name));
+        let places: BTreeSet<usize> = places.flatten().copied().collect();
+        let kind = match &self.inside.kind {
+            Kind::Sum(terms) => {
+                let own = places.into_iter().filter_map(|at| terms.get(at));
+                Kind::Sum(own.cloned().collect())
+            }
+            _ if places.is_empty() => Kind::Sum(Vec::new()),
+            kind => kind.clone(),
+        };
+        let span = self.inside.span;
+        Node { kind, span }
+    }
+
+    /// All names in an expression, and in the definitions of these.
+    fn named(&self, node: &Node) -> Vec<String> {
+        let mut named = Vec::new();
+        super::terms::names(node, &mut named);
+        named.sort_unstable();
+        named.dedup();
+        let mut all: Vec<String> = named.clone();
+        while let Some(name) = named.pop() {
+            let mut further = Vec::new();
+            if let Some((_, body)) = self.scope.definitions.get(&name) {
+                super::terms::names(body, &mut further);
+            }
+            further.retain(|own| !all.contains(own));
+            further.sort_unstable();
+            further.dedup();
+            all.extend(further.iter().cloned());
+            named.extend(further);
+        }
+        all
     }
 
     /// Adds `λ (left − right)`.
@@ -96,20 +152,9 @@ impl Densities {
 
     /// Gradients of energies that may be varied as a whole, as the coefficient of their variation vanishes identically.
     fn settled(&self) -> BTreeSet<String> {
-        let mut named = Vec::new();
-        super::terms::names(&self.inside, &mut named);
-        let mut all: Vec<String> = named.clone();
-        // Names in definitions, one step after the other.
-        while let Some(name) = named.pop() {
-            let mut further = Vec::new();
-            if let Some((_, body)) = self.scope.definitions.get(&name) {
-                super::terms::names(body, &mut further);
-            }
-            further.retain(|own| !all.contains(own));
-            all.extend(further.iter().cloned());
-            named.extend(further);
-        }
-        let own = all.into_iter().filter(|name| self.is_gradient(name));
+        let all = self.scope.definitions.keys().cloned();
+        let all = all.filter(|name| self.places.contains_key(name));
+        let own = all.filter(|name| self.is_gradient(name));
         let own: BTreeSet<String> = own.collect();
         own.into_iter()
             .filter(|name| self.is_settled(name).unwrap_or(false))
@@ -134,7 +179,7 @@ impl Densities {
         let mut kept = self.multipliers.clone();
         kept.insert(name.to_owned());
         let calculus = Calculus::new(&self.scope, &kept);
-        let linear = calculus.linear(&calculus.terms(&self.inside)?, name)?;
+        let linear = calculus.linear(&calculus.terms(&self.about(&[name]))?, name)?;
         let shape = match self.scope.tensors.get(name)?.rank {
             0 => Shape::Scalar,
             1 => Shape::Vector,
@@ -180,7 +225,7 @@ fn equation(
 ) -> Option<Indexed> {
     let scope = &densities.scope;
     let calculus = Calculus::new(scope, kept);
-    let terms = calculus.terms(&densities.inside)?;
+    let terms = calculus.terms(&densities.about(&[&field.name]))?;
     let linear = calculus.linear(&terms, &field.name)?;
     let linear = densities.put_in(&calculus, linear)?;
     let free = free_of(field.shape, scope)?;
@@ -536,7 +581,11 @@ fn conditions_on(
     kept.extend(through.iter().map(|own| own.stress.clone()));
     kept.extend(whole.iter().cloned());
     let calculus = Calculus::new(scope, &kept);
-    let inside = calculus.terms(&densities.inside)?;
+    let inside_about = |name: &str| {
+        let stresses = through.iter().map(|own| own.stress.as_str());
+        let names: Vec<&str> = stresses.chain([name]).collect();
+        calculus.terms(&densities.about(&names))
+    };
     let outside = match densities.pieces.get(&piece.name) {
         Some(tree) => calculus.terms(tree)?,
         None => Vec::new(),
@@ -551,6 +600,7 @@ fn conditions_on(
             _ => Shape::Matrix,
         };
         let mut linear = calculus.linear(&outside, name)?;
+        let inside = inside_about(name)?;
         for own in through.iter().filter(|own| own.traction == *name) {
             linear.extend(own.flux(&calculus, &inside)?);
         }
@@ -572,6 +622,7 @@ fn conditions_on(
     for field in here {
         let mut linear = Linear::new();
         if field.on.is_none() {
+            let inside = inside_about(&field.name)?;
             let mut all = calculus.linear(&inside, &field.name)?;
             for own in &through {
                 all.extend(own.rest(&calculus, &inside, (scope, &whole), &field.name)?);
@@ -668,9 +719,11 @@ impl Through {
         (scope, whole): (&Scope, &BTreeSet<String>),
         field: &str,
     ) -> Option<Linear> {
+        let of_stress = calculus.linear(inside, &self.stress)?;
+        // Its letters are none of those that were made so far.
         let open = Calculus::following(scope, whole, calculus);
         let mut found = Linear::new();
-        for (term, occurrence) in calculus.linear(inside, &self.stress)? {
+        for (term, occurrence) in of_stress {
             let coefficients = match occurrence.derivatives[..] {
                 [] => vec![term],
                 [by] => {

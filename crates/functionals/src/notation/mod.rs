@@ -4,6 +4,7 @@
 //! 1, or, behind a comma, the name of a coordinate. Names of tensors of rank 0 have no indices. The tokens are those of
 //! [`chetaev_symbolic::syntax`]; what tokens mean together is decided here, since a comma means something else there.
 
+mod apart;
 mod canonical;
 pub mod equations;
 mod indices;

@@ -1,11 +1,12 @@
 //! Index notation as text, LaTeX and MathML.
 
+use super::apart::apart;
 use super::{Atom, Index, Kind, Node};
 use crate::tensors::Scope;
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::{rational, Graph, Rational};
 
-/// An expression in a format; text reads back as the same expression.
+/// An expression in a format, in which no index stands more than twice in a term; text reads back as the same expression.
 pub fn written(node: &Node, scope: &Scope, format: Format) -> String {
     let inner = written_inside(node, scope, format);
     match format {
@@ -24,6 +25,11 @@ pub fn written_equation(node: &Node, scope: &Scope, format: Format) -> String {
 }
 
 fn written_inside(node: &Node, scope: &Scope, format: Format) -> String {
+    spelled(&apart(node, scope), scope, format)
+}
+
+/// An expression with the letters that it has.
+pub(super) fn spelled(node: &Node, scope: &Scope, format: Format) -> String {
     let writer = Writer {
         scope,
         heads: Graph::new(),

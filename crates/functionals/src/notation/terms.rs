@@ -100,6 +100,9 @@ impl<'s> Calculus<'s> {
                         }
                         found.push(term);
                     }
+                    if found.len() > MOST_TERMS {
+                        return None;
+                    }
                 }
                 found
             }
@@ -190,6 +193,7 @@ impl<'s> Calculus<'s> {
     /// The linear part in the variation of a field; `None` for what is not treated.
     pub(super) fn linear(&self, terms: &[Term], field: &str) -> Option<Linear> {
         let mut found = Vec::new();
+        chetaev_symbolic::meter::spend(terms.len() as u64);
         for term in terms {
             for (at, factor) in term.factors.iter().enumerate() {
                 let mut others = term.clone();
@@ -543,4 +547,14 @@ pub(super) fn names(node: &Node, found: &mut Vec<String>) {
         Kind::Apply(_, arguments) => arguments.iter().for_each(|a| names(a, found)),
         Kind::Root(inner) | Kind::Derivative(inner, _) => names(inner, found),
     }
+}
+
+/// Letters for indices, the usual ones first; none is a coordinate.
+pub(super) fn readable(scope: &Scope) -> impl Iterator<Item = char> + '_ {
+    let is_coordinate = |letter: &char| {
+        let mut all = scope.space.coordinates.iter();
+        all.any(|c| c.name == letter.to_string() || c.suffix == letter.to_string())
+    };
+    let all = "ijklmnpqrsabcdefghotuvwxyz".chars();
+    all.filter(move |letter| !is_coordinate(letter))
 }

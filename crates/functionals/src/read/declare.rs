@@ -22,6 +22,9 @@ impl Reader<'_> {
         };
         for (key, raw) in &section.entries {
             let stated = self.text_of(raw, &key.content);
+            if !self.is_free(key) {
+                continue;
+            }
             let text = self.override_of(&key.content).or(stated);
             let Some(text) = text else { continue };
             match text.content.trim().parse::<i64>() {
@@ -76,6 +79,7 @@ impl Reader<'_> {
                     }
                     found.extend((1..=d).map(|i| (format!("{letter}_{i}"), i.to_string(), false)));
                 }
+                _ if !self.is_free(text) => return None,
                 _ => found.push((text.content.clone(), text.content.clone(), false)),
             }
         }
@@ -88,6 +92,9 @@ impl Reader<'_> {
             return None;
         }
         if let Some(time) = self.optional(domain, "time") {
+            if !self.is_free(&time) {
+                return None;
+            }
             found.push((time.content.clone(), time.content, true));
         }
         Some(found)
@@ -225,9 +232,7 @@ impl Reader<'_> {
 
     /// Whether neither the name nor that of a component stands for something already.
     fn is_new(&mut self, scope: &Scope, key: &Text, shape: Shape) -> bool {
-        if scope.rank(&key.content).is_some() {
-            let message = format!("`{}` is declared twice", key.content);
-            self.push(Diagnostic::error("declared-twice", key.place, message));
+        if !self.is_unknown(scope, &key.content, key.place) {
             return false;
         }
         let g = &scope.space.graph;
@@ -303,6 +308,9 @@ impl Reader<'_> {
         let d = scope.space.dimensions();
         for (key, raw) in &section.entries {
             let (kind, description) = self.described(raw, "of");
+            if !self.is_unknown(scope, &key.content, key.place) {
+                continue;
+            }
             let Some(shape) = kind.and_then(|text| self.shape(&text)) else {
                 continue;
             };

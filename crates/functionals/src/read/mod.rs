@@ -3,6 +3,7 @@
 mod declare;
 mod family;
 mod relations;
+mod reserved;
 mod ritz;
 mod solutions;
 mod statements;

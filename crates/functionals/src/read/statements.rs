@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::functional::{Definition, Equation, Functional, Interval, Piece, Role, Side};
-use crate::notation::{free_letters, parse, parse_sides, Names};
+use crate::notation::{free_letters, parse, parse_sides};
 use crate::space::pairs;
 use crate::tensors::{tuples, Scope, Tensor};
 use chetaev_model::raw::{Kind, Raw, Table};
@@ -19,10 +19,11 @@ impl Reader<'_> {
         mut scope: Scope,
     ) -> Option<Functional> {
         builtin(&mut scope);
+        let before = self.problems.len();
         let parameters = self.parameters(table, &mut scope);
         let data = self.fields(table, "data", false, &mut scope);
         let fields = self.fields(table, "fields", true, &mut scope);
-        if fields.is_empty() {
+        if fields.is_empty() && !self.has_refused_names(before) {
             let message = "a functional needs fields that are varied";
             self.push(
                 Diagnostic::error("missing-section", place, message)
@@ -30,7 +31,13 @@ impl Reader<'_> {
             );
         }
         let functions = self.functions(table, &scope);
+        if self.has_refused_names(before) {
+            return None;
+        }
         let definitions = self.definitions(table, &mut scope);
+        if self.has_refused_names(before) {
+            return None;
+        }
         self.function_rules(table, &mut scope, &functions);
         let intervals = self.intervals(table, &scope);
         let Some(text) = self.optional(table, "density") else {
@@ -86,7 +93,12 @@ impl Reader<'_> {
             return found;
         };
         let mut pending: Vec<(Text, Text, String)> = Vec::new();
+        let functions = table.get("functions").and_then(Raw::table);
         for (key, raw) in &section.entries {
+            if functions.is_some_and(|own| own.get(head_of(key)).is_some()) {
+                self.is_twice(head_of(key), key.place);
+                continue;
+            }
             let (value, description) = self.described(raw, "value");
             if let Some(value) = value {
                 pending.push((key.clone(), value, description));
@@ -120,13 +132,7 @@ impl Reader<'_> {
 
     /// Definitions in which names stay unknown: those of each other, or of nothing.
     fn undefined(&mut self, scope: &Scope, pending: &[(Text, Text, String)]) {
-        let heads: Vec<&str> = (pending.iter())
-            .map(|(key, ..)| {
-                key.content
-                    .rsplit_once('_')
-                    .map_or(key.content.as_str(), |own| own.0)
-            })
-            .collect();
+        let heads: Vec<&str> = pending.iter().map(|(key, ..)| head_of(key)).collect();
         let is_head = |name: &str| heads.contains(&name);
         for (key, value, _) in pending {
             let mut problems = Vec::new();
@@ -158,9 +164,7 @@ impl Reader<'_> {
             }
             _ => (key.content.clone(), Vec::new()),
         };
-        if scope.rank(&name).is_some() {
-            let message = format!("`{name}` is declared already");
-            self.push(Diagnostic::error("declared-twice", key.place, message));
+        if !self.is_unknown(scope, &name, key.place) {
             return;
         }
         let Some(node) = self.node(scope, value, Some(&letters)) else {
@@ -501,6 +505,13 @@ impl Reader<'_> {
         }
         found
     }
+}
+
+/// The name of what is defined, without its letters.
+fn head_of(key: &Text) -> &str {
+    key.content
+        .rsplit_once('_')
+        .map_or(key.content.as_str(), |own| own.0)
 }
 
 /// What holds on a piece: on a face of a box the normal is known.

@@ -2,7 +2,8 @@
 
 use crate::table::{loaded_text, row_text, studied_text};
 use chetaev_functionals::ritz::{approximation, RitzError};
-use chetaev_functionals::Study;
+use chetaev_functionals::{study_at, Pace, Study};
+use chetaev_symbolic::meter::{Work, UNITS_PER_SECOND};
 use chetaev_symbolic::rational::to_f64;
 
 fn text(name: &str) -> String {
@@ -187,4 +188,76 @@ fn every_level_comes_from_the_one_above_by_a_multiplier() {
         );
         assert_eq!(word, "refuted", "{row} with {other}: {detail}");
     }
+}
+
+/// A clamped membrane in a box of so many dimensions, under a load, with one degree asked for.
+fn box_of(dimensions: usize, degree: u32) -> String {
+    let names = ["x", "y", "z"];
+    let own = &names[..dimensions];
+    let list = |each: &dyn Fn(&&str) -> String, between: &str| {
+        let all: Vec<String> = own.iter().map(each).collect();
+        all.join(between)
+    };
+    format!(
+        "kind = \"functional\"\nname = \"box\"\ndensity = \"1/2 ({}) - u\"\n[domain]\ncoordinates = [{}]\nintervals = {{ {} }}\n[fields]\nu = \"scalar\"\n[boundary]\n{}\n[ritz]\ndegrees = [{degree}]\n",
+        list(&|x| format!("u,{x}^2"), " + "),
+        list(&|x| format!("\"{x}\""), ", "),
+        list(&|x| format!("{x} = [0, 1]"), ", "),
+        list(
+            &|x| format!("\"{x} = 0\" = {{ fixed = [\"u\"] }}\n\"{x} = 1\" = {{ fixed = [\"u\"] }}"),
+            "\n"
+        ),
+    )
+}
+
+/// A study with so many seconds of counted work, and what it spent of it.
+fn within_seconds(text: &str, budget: f64) -> (Study, u64) {
+    let work = Work::of_seconds(budget);
+    let pace = Pace {
+        budget,
+        work: work.clone(),
+        clock: &|| 0.0,
+        progress: &mut |_| {},
+    };
+    let study = study_at(loaded_text("p4p", text, &[]), &|_| true, pace);
+    (study, work.spent())
+}
+
+#[test]
+fn ritz_of_a_high_degree_in_the_plane_is_little_work() {
+    let (study, spent) = within_seconds(&box_of(2, 12), 20.0);
+    let own = &study.approximations[0];
+    assert_eq!(own.unknowns, 169);
+    assert!(own.is_minimum);
+    assert!(spent as f64 <= 10.0 * UNITS_PER_SECOND, "{spent}");
+    // −∫ u/2 of the square: Σ over odd m, n of −32/(π⁶ m² n² (m² + n²)) = −0.01757212…; the torsion constant of the square
+    // is 0.1405770… (Timoshenko and Goodier, Theory of Elasticity, §109), which is −8 times this value.
+    let torsion = -8.0 * to_f64(&own.value);
+    assert!((torsion - 0.140_577_0).abs() < 1e-6, "{torsion}");
+}
+
+#[test]
+fn work_that_is_too_much_is_counted_and_said() {
+    let (study, spent) = within_seconds(&box_of(3, 12), 1.0);
+    let (word, detail) = verdict(&study, "functional.ritz");
+    assert_eq!(word, "undecided");
+    assert!(
+        detail.contains("the work of the budget was spent"),
+        "{detail}"
+    );
+    assert!((spent as f64) < 1.5 * UNITS_PER_SECOND, "{spent}");
+    assert!(study.approximations.is_empty());
+    // A low degree is decided.
+    let (study, _) = within_seconds(&box_of(3, 1), 20.0);
+    assert_eq!(study.approximations[0].unknowns, 8);
+}
+
+#[test]
+fn an_indefinite_functional_has_no_minimum_among_polynomials() {
+    // u v: the matrix has zeros on its diagonal, so that rows are exchanged; elimination then meets positive pivots only.
+    let text = "kind = \"functional\"\nname = \"saddle\"\ndensity = \"u v - u - v\"\n[domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\nv = \"scalar\"\n[boundary]\n\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n[ritz]\ndegrees = [0]\n";
+    let problem = loaded_text("p4p", text, &[]);
+    let own = approximation(&problem.functional, &problem.ritz.unwrap(), 0).unwrap();
+    assert!(!own.is_minimum);
+    assert_eq!(own.value.to_string(), "-1");
 }

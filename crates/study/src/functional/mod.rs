@@ -3,6 +3,7 @@
 mod derivation;
 mod equations;
 mod flat;
+mod pace;
 mod page;
 mod pictures;
 mod record;
@@ -13,6 +14,7 @@ mod typesetting;
 mod verification;
 
 pub use derivation::derivation;
+pub use pace::studied;
 pub use page::page;
 pub use record::record;
 pub use selection::{is_selected, selected, UnknownClaim};

@@ -2,7 +2,7 @@
 
 use super::typesetting::in_print;
 use chetaev_functionals::polynomial::Polynomial;
-use chetaev_functionals::ritz::{approximation, Approximation, Asked};
+use chetaev_functionals::ritz::{Approximation, Asked};
 use chetaev_functionals::Study;
 use chetaev_report::data::{Cell, Figure, Map, Series, Table, TableRow};
 use chetaev_symbolic::rational::to_f64;
@@ -11,12 +11,10 @@ use chetaev_symbolic::rational::to_f64;
 const POINTS: usize = 101;
 const CELLS: usize = 81;
 
-fn approximations(study: &Study) -> Option<(&Asked, Vec<Approximation>)> {
-    let is_decided = study.verdicts.iter().any(|d| d.claim == "functional.ritz");
-    let asked = study.problem.ritz.as_ref().filter(|_| is_decided)?;
-    let own = asked.degrees.iter();
-    let all = own.map(|&degree| approximation(&study.problem.functional, asked, degree).ok());
-    Some((asked, all.collect::<Option<Vec<_>>>()?))
+fn approximations(study: &Study) -> Option<(&Asked, &[Approximation])> {
+    let all = &study.approximations[..];
+    let asked = study.problem.ritz.as_ref().filter(|_| !all.is_empty())?;
+    Some((asked, all))
 }
 
 /// The convergence of the value and of the errors; in one dimension the field too.

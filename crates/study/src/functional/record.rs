@@ -28,6 +28,7 @@ pub fn record(study: &Study, claims: &[String], files: &[WrittenRecord]) -> Reco
         notices: study.notices.clone(),
         options: OptionsRecord {
             claims: claims.to_vec(),
+            budget: Some(study.budget),
             ..OptionsRecord::default()
         },
         files: files.to_vec(),

@@ -1,17 +1,26 @@
 //! The record of a functional replayed from the texts in it.
 
+use super::pace::studied;
 use super::record::record;
+use crate::options::Hooks;
 use crate::record::{ConditionRecord, FunctionalRecord, Record, VerdictRecord};
 use crate::verify::{Replay, Verified, VerifyError};
 use chetaev_functionals::read::reload;
+use chetaev_functionals::study::USUAL_BUDGET;
 use chetaev_model::model::ModelText;
 use chetaev_model::Style;
 
-/// Studies the functional again, and compares every verdict, every equation and every condition.
+/// Studies the functional again, and compares every verdict, every equation and every condition. What the record asks for beyond `budget`
+/// is left open.
 ///
 /// # Errors
 /// [`VerifyError::Model`] where the texts in the record have errors.
-pub fn verify(recorded: &Record, text: &ModelText) -> Result<Vec<Verified>, VerifyError> {
+pub fn verify(
+    recorded: &Record,
+    text: &ModelText,
+    budget: f64,
+    hooks: &mut Hooks<'_>,
+) -> Result<Vec<Verified>, VerifyError> {
     let loaded = reload(text);
     let Some(problem) = loaded.problem else {
         let said = loaded.diagnostics.render(Style::Plain);
@@ -22,7 +31,8 @@ pub fn verify(recorded: &Record, text: &ModelText) -> Result<Vec<Verified>, Veri
         let is_asked = |w: &String| w == id || id.starts_with(&format!("{w}."));
         words.is_empty() || words.iter().any(is_asked)
     };
-    let study = chetaev_functionals::study(problem, &wants, &|| 0.0);
+    let asked = recorded.options.budget.unwrap_or(USUAL_BUDGET);
+    let study = studied(problem, &wants, asked.min(budget), hooks);
     let again = record(&study, words, &[]);
     let mut lines: Vec<Verified> = recorded
         .verdicts
@@ -78,6 +88,17 @@ fn compared(own: &VerdictRecord, all: &[VerdictRecord]) -> Verified {
             found: "nothing".into(),
             detail: "the functional has no such claim".into(),
         },
+        Some(again) if again.verdict != own.verdict && own.is_stopped() => Replay::Remark {
+            what: format!(
+                "undecided in the record ({}); the replay finds {}",
+                own.detail, again.verdict
+            ),
+        },
+        Some(again) if again.verdict != own.verdict && again.verdict == "undecided" => {
+            Replay::Open {
+                tried: again.detail.clone(),
+            }
+        }
         Some(again) => match differing(own, again) {
             None => Replay::Confirmed,
             Some(what) => Replay::Differs {
