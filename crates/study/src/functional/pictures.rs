@@ -51,7 +51,7 @@ pub(super) fn figures(study: &Study) -> Vec<Figure> {
         });
     }
     if study.problem.functional.space.coordinates.len() == 1 {
-        found.extend(curve(study, &all, claim));
+        found.extend(curve(study, all, claim));
     }
     found
 }
