@@ -21,7 +21,7 @@ use crate::space::{Component, Jet, Space};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
-use chetaev_symbolic::{Expr, Node, Verdict};
+use chetaev_symbolic::{rational, Expr, Node, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -41,8 +41,12 @@ pub struct Solved<'s> {
     space: &'s Space,
     rules: Vec<Rule>,
     place: Option<Side>,
+    /// Variables that are constant where the equations hold, with their values.
+    constant: Vec<(usize, Expr)>,
     is_corner: bool,
     preferred: BTreeSet<String>,
+    /// Expressions that are not negative, as is known besides: a counterexample keeps to them.
+    nonnegative: Vec<Expr>,
     /// Pairs of rules that were compared.
     crossed: BTreeSet<(usize, usize)>,
     /// Up to which order conditions of integrability that raise the order are taken; none of them where it is `None`.
@@ -121,6 +125,12 @@ const HOMOGENEOUS: u8 = 5;
 const DERIVATIVE: u8 = 6;
 const PLAIN_DATA: u8 = 7;
 
+/// At so many points a factor between two equations is looked for.
+const MOST_POINTS: usize = 4;
+
+/// So many products one after the other are taken apart.
+const MOST_PRODUCTS: usize = 4;
+
 /// Most rounds; each solves one group or changes its form.
 const MOST_ROUNDS: usize = 200;
 
@@ -134,8 +144,10 @@ impl<'s> Solved<'s> {
             space,
             rules: Vec::new(),
             place: None,
+            constant: Vec::new(),
             is_corner: false,
             preferred: BTreeSet::new(),
+            nonnegative: Vec::new(),
             crossed: BTreeSet::new(),
             order: None,
             is_cut: false,
@@ -157,11 +169,21 @@ impl<'s> Solved<'s> {
         self
     }
 
+    /// The same where expressions are not negative.
+    #[must_use]
+    pub fn where_nonnegative(mut self, es: &[Expr]) -> Solved<'s> {
+        self.nonnegative.extend(es);
+        self
+    }
+
     /// The same with more equations, which hold on a piece of the boundary and may be differentiated along it only.
     #[must_use]
     pub fn with_on(&self, side: &Side, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
         own.place = Some(side.clone());
+        if let Side::Flat { axis, at, .. } = side {
+            own.constant.push((*axis, *at));
+        }
         own.with(groups)
     }
 
@@ -433,10 +455,12 @@ impl<'s> Solved<'s> {
     fn contradicted(&self, e: Expr) -> Verdict {
         let space = self.space;
         let plane = space.on_plane(e);
+        let known = |y: &Expr| space.on_plane(space.explicit(self.normal(*y)));
+        let known: Vec<Expr> = self.nonnegative.iter().map(known).collect();
         if plane == e {
-            return space.vanishing(&[e], true);
+            return space.vanishing_where(&[e], true, &known);
         }
-        match space.vanishing(&[plane], true) {
+        match space.vanishing_where(&[plane], true, &known) {
             Verdict::Refuted(found) => Verdict::Refuted(found),
             _ if space.has_curvature_derivatives(e) => Verdict::undecided(
                 "it vanishes where the boundary is plane, and contains derivatives of the curvature elsewhere",
@@ -445,20 +469,180 @@ impl<'s> Solved<'s> {
         }
     }
 
-    /// Whether an expression is an equation that is left times a factor without fields: then both have the same logarithmic
-    /// derivative by every jet.
+    /// Whether an expression e is an equation f that is left times a factor without fields: then `e f₀ = e₀ f` for all jets, with the
+    /// values at some at which f₀ does not vanish.
     fn is_multiple(&self, e: Expr) -> bool {
         let g = &self.space.graph;
-        let all = self
+        if let Node::Product { factors, .. } = g.node(e) {
+            let jets = |factor: &&Expr| !self.space.jets_in(&[**factor]).is_empty();
+            let several: Vec<Expr> = factors.iter().filter(jets).copied().collect();
+            return several.len() > 1
+                && several
+                    .into_iter()
+                    .any(|factor| self.is_multiple(self.base(factor)))
+                || self.is_constant_multiple(e);
+        }
+        self.is_constant_multiple(e)
+    }
+
+    fn is_constant_multiple(&self, e: Expr) -> bool {
+        let g = &self.space.graph;
+        let left = self.left.iter();
+        let mut all = left.flat_map(|group| group.equations.iter().copied());
+        all.any(|other| {
+            (1..=MOST_POINTS).any(|seed| {
+                let jets = self
+                    .space
+                    .jets_in(&[e, other])
+                    .into_iter()
+                    .collect::<Vec<_>>();
+                let [one, two] = [e, other].map(|e| self.at_point(e, &jets, seed));
+                let is_somewhere = !g.is_zero(two)
+                    && matches!(self.space.vanishing(&[two], true), Verdict::Refuted(_));
+                is_somewhere && self.vanishes(g.sub(g.mul(&[e, two]), g.mul(&[one, other])))
+            })
+        })
+    }
+
+    /// An expression with rational values for jets: all of one sign, of the other, or by turns.
+    fn at_point(&self, e: Expr, jets: &[Jet], seed: usize) -> Expr {
+        let space = self.space;
+        space.replace(e, &|symbol| {
+            let jet = space.as_jet(symbol)?;
+            let at = jets.iter().position(|own| *own == jet)?;
+            let is_positive = match seed {
+                1 => true,
+                2 => false,
+                _ => (at + seed).is_multiple_of(2),
+            };
+            let size = (2 * at + 2 + seed) as i64;
+            let value = rational::ratio(if is_positive { size } else { -size }, 2)?;
+            Some(space.graph.number(value))
+        })
+    }
+
+    /// What cannot be where all equations hold: an equation that is left although it never holds, with its label.
+    pub fn contradiction(&self) -> Option<(String, Expr)> {
+        let own = self.impossible();
+        if own.is_some() || !self.is_cut || self.is_circular() {
+            return own;
+        }
+        self.prolonged().impossible()
+    }
+
+    fn impossible(&self) -> Option<(String, Expr)> {
+        self.left.iter().find_map(|group| {
+            let mut own = group.equations.iter().copied();
+            let found = own.find(|&e| self.never_holds(e))?;
+            Some((group.label.clone(), found))
+        })
+    }
+
+    /// Whether an expression is known to vanish nowhere, or not to vanish identically although nothing but the place occurs in it.
+    fn never_holds(&self, e: Expr) -> bool {
+        let space = self.space;
+        let g = &space.graph;
+        let e = self.placed(space.explicit(e));
+        if known_sign(g, e, &Assumptions::new()).is_nonzero() {
+            return true;
+        }
+        let is_place = |symbol| {
+            space
+                .coordinates
+                .iter()
+                .any(|c| g.as_symbol(c.expr) == Some(symbol))
+        };
+        let is_curved = self.place == Some(Side::Curved);
+        let is_of_place = g.symbols_in(&[e]).into_iter().all(is_place);
+        !is_curved && is_of_place && matches!(space.vanishing(&[e], true), Verdict::Refuted(_))
+    }
+
+    /// On a face the variable across it has its value.
+    fn placed(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        self.space.replace(e, &|symbol| {
+            let is_own = |(axis, _): &&(usize, Expr)| {
+                let own = self.space.coordinates.get(*axis);
+                own.is_some_and(|c| g.as_symbol(c.expr) == Some(symbol))
+            };
+            self.constant.iter().find(is_own).map(|(_, at)| *at)
+        })
+    }
+
+    /// What the equations ask of what is given, so that there are fields for some of it only: relations between data and parameters,
+    /// which vanish.
+    pub fn restrictions(&self) -> Vec<Expr> {
+        let space = self.space;
+        let is_given = |component: usize| {
+            let own = space.component_at(component);
+            !own.is_varied && !own.is_of_boundary
+        };
+        let of_rules = self
+            .rules
+            .iter()
+            .filter(|rule| is_given(rule.jet.component));
+        let of_rules = of_rules.map(|rule| {
+            let own = space.jet(rule.jet.component, &rule.jet.by);
+            space.graph.sub(own, self.normal(rule.value))
+        });
+        let left = self
             .left
             .iter()
             .flat_map(|group| group.equations.iter().copied());
-        all.into_iter().any(|other| {
-            let jets = self.space.jets_in(&[e, other]);
-            jets.iter().all(|jet| {
-                let (a, b) = (self.space.partial(e, jet), self.space.partial(other, jet));
-                self.vanishes(g.sub(g.mul(&[a, other]), g.mul(&[e, b])))
-            })
+        let is_of_given = |e: &Expr| {
+            let jets = space.jets_in(&[*e]);
+            jets.iter().all(|jet| is_given(jet.component)) && !space.symbols_in(&[*e]).is_empty()
+        };
+        of_rules.chain(left).filter(is_of_given).collect()
+    }
+
+    /// The cases of which one holds wherever the equations do: one for each factor of an equation that is left and is a product.
+    pub fn alternatives(&self) -> Vec<Solved<'s>> {
+        let mut found = Vec::new();
+        let mut open = vec![(self.clone(), 0)];
+        while let Some((own, depth)) = open.pop() {
+            let product = (depth < MOST_PRODUCTS).then(|| own.product()).flatten();
+            let Some((group, at, factors)) = product else {
+                found.push(own);
+                continue;
+            };
+            for factor in factors {
+                let mut case = own.clone();
+                case.left[group].equations[at] = factor;
+                case.prolonged = RefCell::default();
+                case.known.borrow_mut().clear();
+                case.solve();
+                open.push((case, depth + 1));
+            }
+        }
+        found
+    }
+
+    /// The first equation that is left and is a product of several factors with jets.
+    fn product(&self) -> Option<(usize, usize, Vec<Expr>)> {
+        let g = &self.space.graph;
+        let groups = self.left.iter().enumerate();
+        let mut all = groups.flat_map(|(k, group)| {
+            let own = group.equations.iter().enumerate();
+            own.map(move |(at, &e)| (k, at, e))
+        });
+        all.find_map(|(group, at, e)| {
+            let jets = self.space.jets_in(&[e]).into_iter();
+            let symbols: Vec<_> = jets
+                .filter_map(|jet| g.as_symbol(self.space.jet(jet.component, &jet.by)))
+                .collect();
+            let found: Vec<Expr> = match g.node(e) {
+                Node::Product { factors, .. } => {
+                    let own = factors.iter().copied();
+                    own.filter(|&factor| g.contains_any(factor, &symbols))
+                        .collect()
+                }
+                _ => {
+                    let own = chetaev_symbolic::factors::factors(g, e, &symbols)?;
+                    own.into_iter().map(|(factor, _)| factor).collect()
+                }
+            };
+            (found.len() > 1).then_some((group, at, found))
         })
     }
 
@@ -470,9 +654,11 @@ impl<'s> Solved<'s> {
             }
             let mut groups = std::mem::take(&mut self.left);
             for group in &mut groups {
-                for e in &mut group.equations {
-                    *e = self.stripped(self.normal(*e));
-                }
+                let parts = group
+                    .equations
+                    .iter()
+                    .flat_map(|&e| self.parts(self.normal(e)));
+                group.equations = parts.map(|e| self.stripped(e)).collect();
                 group.equations.retain(|&e| !self.vanishes(e));
             }
             groups.retain(|group| !group.equations.is_empty());
@@ -502,15 +688,61 @@ impl<'s> Solved<'s> {
         }
     }
 
-    /// An equation without factors that never vanish.
+    /// What a positive power is of: both vanish together.
+    fn base(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        match g.node(e) {
+            Node::Power { base, exponent } => {
+                let exponent = g.as_number(*exponent);
+                let is_positive = exponent.is_some_and(|n| !rational::is_negative(n));
+                if is_positive {
+                    *base
+                } else {
+                    e
+                }
+            }
+            _ => e,
+        }
+    }
+
+    /// The terms of a sum of which none is negative, or none positive: each vanishes where the sum does.
+    fn parts(&self, e: Expr) -> Vec<Expr> {
+        let g = &self.space.graph;
+        let Node::Sum { constant, terms } = g.node(e) else {
+            return vec![e];
+        };
+        let assumptions = Assumptions::new();
+        let parts = terms
+            .iter()
+            .map(|(term, coefficient)| g.mul(&[g.number(coefficient.clone()), *term]));
+        let parts: Vec<Expr> = parts.collect();
+        let signs: Vec<_> = parts
+            .iter()
+            .map(|&part| known_sign(g, part, &assumptions))
+            .collect();
+        let is_split = constant.is_zero()
+            && (signs.iter().all(|sign| sign.is_nonnegative())
+                || signs.iter().all(|sign| sign.is_nonpositive()));
+        if is_split {
+            parts
+        } else {
+            vec![e]
+        }
+    }
+
+    /// An equation without factors that never vanish, and without positive powers, which vanish where what they are of does.
     fn stripped(&self, e: Expr) -> Expr {
         let g = &self.space.graph;
         let Node::Product { factors, .. } = g.node(e) else {
-            return e;
+            return self.base(e);
         };
         let assumptions = Assumptions::new();
         let vanishes = |&&factor: &&Expr| !known_sign(g, factor, &assumptions).is_nonzero();
-        let kept: Vec<Expr> = factors.iter().filter(vanishes).copied().collect();
+        let kept: Vec<Expr> = factors
+            .iter()
+            .filter(vanishes)
+            .map(|&e| self.base(e))
+            .collect();
         g.mul(&kept)
     }
 

@@ -56,6 +56,16 @@ pub struct Piece {
     pub fixed: Vec<(usize, bool)>,
 }
 
+impl Piece {
+    /// Whether two faces of a box meet at an edge.
+    pub fn meets(&self, other: &Piece) -> bool {
+        match (&self.side, &other.side) {
+            (Side::Flat { axis: one, .. }, Side::Flat { axis: two, .. }) => one != two,
+            _ => false,
+        }
+    }
+}
+
 /// What a stated equation is for the functional.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -141,7 +151,7 @@ pub struct Interval {
 }
 
 /// A functional with everything stated about it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Functional {
     /// Its name.
     pub name: String,

@@ -14,6 +14,7 @@
 //! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
 //! * [`integral`]: exact integrals of polynomials.
 //! * [`polynomial`], [`ritz`], `ritz_base`, `linear`: polynomials with rational coefficients, Ritz's method, its base, and linear equations.
+//! * [`signs`]: the sign of a function on an interval.
 //! * [`study`](mod@study): all claims about one model file.
 
 pub mod boundary;
@@ -28,6 +29,7 @@ pub mod polynomial;
 pub mod read;
 pub mod ritz;
 mod ritz_base;
+pub mod signs;
 pub mod space;
 pub mod study;
 pub mod tensors;

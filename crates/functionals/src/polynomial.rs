@@ -107,6 +107,28 @@ impl Polynomial {
         })
     }
 
+    /// Whether it is zero.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The coefficients by ascending powers of the first variable; `None` where another one occurs.
+    pub fn in_one_variable(&self) -> Option<Vec<Rational>> {
+        let mut found = Vec::new();
+        for (exponents, value) in &self.0 {
+            let n = match exponents[..] {
+                [] => 0,
+                [n] => n as usize,
+                _ => return None,
+            };
+            if found.len() <= n {
+                found.resize(n + 1, Rational::ZERO);
+            }
+            found[n] = value.clone();
+        }
+        Some(found)
+    }
+
     /// Exponents by axis with their coefficients.
     pub fn terms(&self) -> impl Iterator<Item = (&[u32], &Rational)> {
         self.0

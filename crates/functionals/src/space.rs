@@ -4,7 +4,7 @@
 //! too, which is differentiated by the chain rule through its own derivatives; a function and its Legendre conjugate undo each
 //! other wherever one is applied to the gradient of the other. Both are exact, so that what is proved holds for every energy.
 
-use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
 use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use std::cell::RefCell;
@@ -494,8 +494,17 @@ impl Space {
 
     /// Whether all expressions vanish identically, with the evidence. The normal n is a unit vector.
     pub fn vanishing(&self, residuals: &[Expr], refute: bool) -> Verdict {
+        self.vanishing_where(residuals, refute, &[])
+    }
+
+    /// The same where other expressions are not negative.
+    pub fn vanishing_where(&self, residuals: &[Expr], refute: bool, known: &[Expr]) -> Verdict {
+        let g = &self.graph;
+        let mut assumptions = Assumptions::new();
+        for &e in known {
+            assumptions.assume(self.on_sphere(e), Relation::GreaterOrEqual, g.zero());
+        }
         let test = |residuals: &[Expr], refute: bool| {
-            let assumptions = Assumptions::new();
             let test = ZeroTest {
                 options: Options {
                     refute,
@@ -650,6 +659,28 @@ impl Space {
                 self.apply(own.function, &own.by, &arguments)
             };
             pairs.push((g.symbol_expr(symbol), new));
+        }
+        g.substitute(e, &pairs)
+    }
+
+    /// The expression with one symbol for applications of a function whose arguments are proved equal, such as `((1 − β) s)/(1 − β)` and s.
+    pub fn unified(&self, e: Expr) -> Expr {
+        let g = &self.graph;
+        let mut kept: Vec<(Application, Expr)> = Vec::new();
+        let mut pairs = Vec::new();
+        for symbol in g.symbols_in(&[e]) {
+            let Some(own) = self.applications.borrow().get(&symbol).cloned() else {
+                continue;
+            };
+            let is_same = |(other, _): &&(Application, Expr)| {
+                let pairs = own.arguments.iter().zip(&other.arguments);
+                let differences: Vec<Expr> = pairs.map(|(&a, &b)| g.sub(a, b)).collect();
+                own.function == other.function && own.by == other.by && self.vanish(&differences)
+            };
+            match kept.iter().find(is_same) {
+                Some((_, same)) => pairs.push((g.symbol_expr(symbol), *same)),
+                None => kept.push((own, g.symbol_expr(symbol))),
+            }
         }
         g.substitute(e, &pairs)
     }

@@ -147,7 +147,9 @@ fn decided(
     pace: &Pace<'_>,
 ) -> Decided {
     let start = (pace.clock)();
-    let found = within(&pace.work, || claim.decide(cx, subject.as_deref()));
+    let found = within(&pace.work, || {
+        crate::claims::decided(claim, cx, subject.as_deref())
+    });
     let finding = found.unwrap_or_else(|why| stopped_verdict(why, pace.budget).into());
     let full = full_id(claim.id(), subject.as_deref());
     let expected = cx.problem.expected.iter();

@@ -1,8 +1,8 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
-use super::modulo::{equations, labels, vanishing};
-use super::{Claim, Context, Finding};
-use crate::functional::{Functional, Relation, Special, SpecialKind};
+use super::modulo::{equations, vanishing_difference, STATED};
+use super::{Claim, Context, Finding, Formula};
+use crate::functional::{Functional, Relation, Role, Special, SpecialKind};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -20,8 +20,10 @@ impl Claim for Degeneration {
 
     fn explanation(&self) -> &'static str {
         "The values that a section [degenerations.NAME] states are put in for parameters, fields and constitutive functions; the \
-         densities of the interior and of every piece of the boundary must then be those of the functional that it names. Where a \
-         boundary density agrees only because of field equations, the verdict names the fewest that are needed."
+         densities of the interior and of every piece of the boundary must then be those of the functional that it names, for all fields \
+         that this one admits. Where they agree only because of what it imposes, the verdict names it. Field equations that \
+         follow from a functional are not used: by these it would be equal to many others. Where the densities differ the claim is \
+         refuted, and the difference is shown."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -48,10 +50,13 @@ impl Claim for Degeneration {
                 }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();
                 let how = format!("with {}", told.join(", "));
-                compared(cx.functional(), other, &how, &|e| {
-                    put_in(cx.functional(), values, e)
-                })
-                .into()
+                let comparison = Comparison {
+                    functional: cx.functional(),
+                    other,
+                    how: &how,
+                    is_descent: false,
+                };
+                comparison.decided(&|e| put_in(cx.functional(), values, e))
             }
             None => Verdict::undecided("there is no such degeneration").into(),
         }
@@ -95,68 +100,101 @@ pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Ex
     })
 }
 
-/// Compares all densities of two functionals, those of the first changed by `change`.
-pub(super) fn compared(
-    functional: &Functional,
-    other: &Functional,
-    how: &str,
-    change: &dyn Fn(Expr) -> Expr,
-) -> Verdict {
-    let g = &functional.space.graph;
-    let mut notes = Vec::new();
-    let inside = g.sub(change(functional.density), other.density);
-    let mut all = match vanishing(functional, &[inside], &equations(other, None)) {
-        Ok((proof, needed)) => {
-            if !needed.is_empty() {
-                notes.push(format!("in the interior modulo {}", labels(&needed)));
-            }
-            Verdict::Proved(proof)
-        }
-        Err(verdict) => return differs(other, "the densities of the interior", *verdict),
-    };
-    for piece in &other.pieces {
-        let Some(own) = functional.piece(&piece.name) else {
-            return Verdict::undecided(format!(
-                "`{}` has no piece {}",
-                functional.name, piece.name
-            ));
-        };
-        let difference = g.sub(change(own.density), piece.density);
-        let available = equations(other, Some(&piece.name));
-        match vanishing(functional, &[difference], &available) {
-            Ok((proof, needed)) => {
-                if !needed.is_empty() {
-                    notes.push(format!("on {} modulo {}", piece.name, labels(&needed)));
-                }
-                all = all.and(Verdict::Proved(proof));
-            }
-            Err(verdict) => {
-                return differs(other, &format!("the densities on {}", piece.name), *verdict)
-            }
-        }
-    }
-    match all {
-        Verdict::Proved(proof) => Verdict::Proved(Proof {
-            on: if notes.is_empty() {
-                "all fields".into()
-            } else {
-                format!("all fields; {}", notes.join(", "))
-            },
-            detail: if notes.is_empty() {
-                format!("{how} the densities are those of {}", other.name)
-            } else {
-                format!(
-                    "{how} the densities are those of {}, {}",
-                    other.name,
-                    notes.join(", ")
-                )
-            },
-            ..proof
-        }),
-        other => other,
-    }
+/// How the densities of two functionals are to agree.
+pub(super) struct Comparison<'f> {
+    /// The functional whose densities are changed.
+    pub functional: &'f Functional,
+    /// The one they are to be those of.
+    pub other: &'f Functional,
+    /// What was done, in words.
+    pub how: &'f str,
+    /// Whether the other functional is one level below: what it imposes is then said in the fields of the first, and on the boundary a
+    /// difference may be of second order in stated equations, so that neither the value of the functional where they hold nor its first
+    /// variation there depends on it.
+    pub is_descent: bool,
 }
 
-fn differs(other: &Functional, what: &str, verdict: Verdict) -> Verdict {
-    verdict.prefixed(&format!("{what} differ from those of {}", other.name))
+impl Comparison<'_> {
+    /// Compares all densities, those of the first changed by `change`. They have to agree for all fields that the other functional
+    /// admits: where what it imposes holds. What it yields is no help: with that a functional would be equal to many.
+    pub(super) fn decided(&self, change: &dyn Fn(Expr) -> Expr) -> Finding {
+        let (functional, other) = (self.functional, self.other);
+        let space = &*functional.space;
+        let g = &space.graph;
+        let mut notes = Vec::new();
+        let mut all = Verdict::Proved(Proof::exact("", ""));
+        let mut places = vec![(None, functional.density, other.density)];
+        for piece in &other.pieces {
+            let Some(own) = functional.piece(&piece.name) else {
+                let said = format!("`{}` has no piece {}", functional.name, piece.name);
+                return Verdict::undecided(said).into();
+            };
+            places.push((Some(piece.name.as_str()), own.density, piece.density));
+        }
+        for (on, own, wanted) in places {
+            let difference = space.unified(g.sub(change(own), wanted));
+            let place =
+                on.map_or_else(|| "in the interior".to_owned(), |name| format!("on {name}"));
+            match self.place(on, difference) {
+                Ok((proof, note)) => {
+                    all = all.and(Verdict::Proved(proof));
+                    notes.extend(note.map(|note| format!("{place} {note}")));
+                }
+                Err(verdict) => {
+                    let what = match on {
+                        None => "the densities of the interior".to_owned(),
+                        Some(name) => format!("the densities on {name}"),
+                    };
+                    let verdict =
+                        verdict.prefixed(&format!("{what} differ from those of {}", other.name));
+                    let mut finding = Finding::from(verdict);
+                    finding.formulas =
+                        vec![Formula::new(format!("the difference {place}"), difference)];
+                    return finding;
+                }
+            }
+        }
+        self.told(all, &notes).into()
+    }
+
+    /// A proof that a difference vanishes for all admitted fields, and what is to be said of it.
+    fn place(
+        &self,
+        on: Option<&str>,
+        difference: Expr,
+    ) -> Result<(Proof, Option<String>), Box<Verdict>> {
+        let mut imposed = equations(self.other, on, &[Role::Imposed]);
+        if self.is_descent {
+            // What the lower functional says of fields that it does not have any more.
+            let labels: Vec<String> = imposed.iter().map(|own| own.label.clone()).collect();
+            let above = equations(self.functional, on, STATED).into_iter();
+            imposed.extend(above.filter(|own| labels.contains(&own.label)));
+        }
+        let stated = if self.is_descent && on.is_some() {
+            equations(self.other, on, &[Role::Imposed, Role::Yielded])
+        } else {
+            Vec::new()
+        };
+        vanishing_difference(self.functional, difference, &imposed, &stated)
+    }
+
+    fn told(&self, all: Verdict, notes: &[String]) -> Verdict {
+        let (how, other) = (self.how, &self.other.name);
+        match all {
+            Verdict::Proved(proof) if notes.is_empty() => Verdict::Proved(Proof {
+                on: "all fields".into(),
+                detail: format!("{how} the densities are those of {other}"),
+                ..proof
+            }),
+            Verdict::Proved(proof) => {
+                let notes = notes.join(", ");
+                Verdict::Proved(Proof {
+                    on: format!("all fields; {notes}"),
+                    detail: format!("{how} the densities are those of {other}, {notes}"),
+                    ..proof
+                })
+            }
+            other => other,
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! `functional.descent`: a level follows from the one above by imposing one more group of equations.
 
-use super::degeneration::compared;
+use super::degeneration::Comparison;
 use super::modulo::labels;
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
@@ -21,8 +21,9 @@ impl Claim for Descent {
 
     fn explanation(&self) -> &'static str {
         "The equations that [descent] names are imposed on the functional of the level above: they are solved for one of its fields, \
-         whose place the solution takes in all densities. What comes out must be the functional of this model. Where a \
-         boundary density agrees only because of further field equations, the verdict names the fewest that are needed."
+         whose place the solution takes in all densities. What comes out must be the functional of this model, for all fields that it \
+         admits. On the boundary the densities may differ by a product of what two of its equations say is zero, since such a term changes \
+         neither the value of the functional nor its first variation where they hold: the verdict names them."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -40,13 +41,13 @@ impl Claim for Descent {
             _ => None,
         });
         match found {
-            Some((above, imposed)) => descended(cx.functional(), above, imposed).into(),
+            Some((above, imposed)) => descended(cx.functional(), above, imposed),
             None => Verdict::undecided("no level above is stated").into(),
         }
     }
 }
 
-fn descended(functional: &Functional, above: &Functional, imposed: &[String]) -> Verdict {
+fn descended(functional: &Functional, above: &Functional, imposed: &[String]) -> Finding {
     let space = &*functional.space;
     let group = |label: &String| {
         let own = above.equations.iter().find(|e| e.label == *label)?;
@@ -75,13 +76,20 @@ fn descended(functional: &Functional, above: &Functional, imposed: &[String]) ->
     if !solved.left.is_empty() {
         return Verdict::undecided(
             "the equations that are imposed could not be solved for a field",
-        );
+        )
+        .into();
     }
     let everywhere: Vec<Group> = groups.into_iter().map(|(_, g)| g).collect();
     let on_boundary = Solved::new(space).preferring(&fields).with(&everywhere);
     let how = format!("imposing {} on {},", labels(imposed), above.name);
     let density = above.density;
-    compared(above, functional, &how, &|e: Expr| {
+    let comparison = Comparison {
+        functional: above,
+        other: functional,
+        how: &how,
+        is_descent: true,
+    };
+    comparison.decided(&|e: Expr| {
         if e == density {
             solved.normal(e)
         } else {

@@ -1,8 +1,9 @@
 //! `functional.duality`: two functionals add up to a divergence, and to nothing with their boundary terms.
 
-use super::modulo::{equations, labels, vanishing};
+use super::modulo::{equations, labels, vanishing, vanishing_difference, STATED};
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::{Functional, Relation, Side};
+use crate::elimination::Group;
+use crate::functional::{Functional, Relation, Role, Side};
 use crate::variation::euler_expression;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -22,8 +23,8 @@ impl Claim for Duality {
     fn explanation(&self) -> &'static str {
         "The sum of the two densities of the interior is a divergence if its Euler expressions vanish identically. With a stated flux W \
          the sum is proved to be D_i W_i, and on every piece n_i W_i and the two boundary densities must add up to zero, which makes the \
-         sum of the functionals zero for all fields. Where one of these holds only because of field equations, the verdict \
-         names the fewest that are needed."
+         sum of the functionals zero for all fields that both admit. Where it vanishes on a piece only because of field equations, or as a \
+         product of two conditions, the verdict names the fewest that are needed."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -81,7 +82,10 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
         terms.push(g.neg(space.total(w, axis)));
     }
     let mut notes = Vec::new();
-    let mut all = match vanishing(functional, &[g.add(&terms)], &equations(functional, None)) {
+    // Both functionals are of fields that both admit.
+    let mut imposed = equations(functional, None, &[Role::Imposed]);
+    imposed.extend(equations(other, None, &[Role::Imposed]));
+    let mut all = match vanishing(functional, &[g.add(&terms)], &imposed) {
         Ok((proof, needed)) => {
             if !needed.is_empty() {
                 notes.push(format!("in the interior modulo {}", labels(&needed)));
@@ -113,19 +117,11 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
         let mut terms: Vec<Expr> = through;
         terms.extend([piece.density, dual.density]);
         let sum = g.add(&terms);
-        match vanishing(
-            functional,
-            &[sum],
-            &equations(functional, Some(&piece.name)),
-        ) {
-            Ok((proof, needed)) => {
-                if !needed.is_empty() {
-                    notes.push(format!("on {} modulo {}", piece.name, labels(&needed)));
-                    let caption = format!(
-                        "the sum on {}, which vanishes with {}",
-                        piece.name,
-                        labels(&needed)
-                    );
+        match on_piece(functional, other, &piece.name, sum) {
+            Ok((proof, note)) => {
+                if let Some(note) = note {
+                    notes.push(format!("on {} {note}", piece.name));
+                    let caption = format!("the sum on {}, which vanishes {note}", piece.name);
                     formulas.push(Formula::new(caption, sum));
                 }
                 all = all.and(Verdict::Proved(proof));
@@ -164,4 +160,29 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
         other => other,
     };
     Finding { verdict, formulas }
+}
+
+/// A proof that a sum vanishes on a piece: with equations of the interior, or with what is imposed there; else as a product of what
+/// conditions say is zero. With one condition of the piece alone the sum would vanish for any multiple of it.
+fn on_piece(
+    functional: &Functional,
+    other: &Functional,
+    piece: &str,
+    sum: Expr,
+) -> Result<(Proof, Option<String>), Box<Verdict>> {
+    let mut inside = equations(functional, None, STATED);
+    inside.extend(equations(functional, Some(piece), &[Role::Imposed]));
+    inside.extend(equations(other, Some(piece), &[Role::Imposed]));
+    match vanishing(functional, &[sum], &inside) {
+        Ok((proof, needed)) if needed.is_empty() => Ok((proof, None)),
+        Ok((proof, needed)) => Ok((proof, Some(format!("modulo {}", labels(&needed))))),
+        Err(_) => {
+            let mut all = equations(functional, Some(piece), STATED);
+            let of_dual = equations(other, Some(piece), STATED);
+            let is_new = |group: &Group| all.iter().all(|own| own.label != group.label);
+            let new: Vec<Group> = of_dual.into_iter().filter(is_new).collect();
+            all.extend(new);
+            vanishing_difference(functional, sum, &[], &all)
+        }
+    }
 }

@@ -1,12 +1,16 @@
 //! `functional.euler`: stationarity is equivalent to the stated equations.
 
+use super::branches::{branches, Branch};
 use super::modulo::{all_subsets as subsets, labels};
+use super::reduction::{reduced, restricted};
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Constitutive, Equation, Functional, Role};
-use crate::variation::{Condition, OnPiece, Variation};
+use crate::variation::{variation, Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
 use std::collections::BTreeSet;
 
 /// `functional.euler#NAME`.
@@ -45,10 +49,86 @@ impl Claim for Euler {
             )
             .into();
         }
-        match &cx.variation {
-            Ok(variation) => Comparison::new(functional, variation).verdict().into(),
-            Err(problem) => Verdict::undecided(problem.to_string()).into(),
+        let own = reduced(functional);
+        let verdict = match branches(&own) {
+            Some(all) => on_branches(&all),
+            None => on_branch(&own, &[]),
+        };
+        match verdict {
+            Verdict::Proved(mut proof) => {
+                if let Some(said) = cx.admission.of_redundant() {
+                    proof.detail.push_str(&format!(", with {said}"));
+                }
+                proof.on.push_str(&where_defined(functional));
+                Verdict::Proved(proof).into()
+            }
+            other => other.into(),
         }
+    }
+}
+
+/// The verdict where some expressions are known not to be negative.
+fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
+    let own = match variation(functional) {
+        Ok(own) => own,
+        Err(problem) => return Verdict::undecided(problem.to_string()),
+    };
+    match restricted(functional, &own) {
+        Some(why) => Verdict::undecided(why),
+        None => Comparison::new(functional, &own, nonnegative).verdict(),
+    }
+}
+
+/// The verdicts on all branches in one: true on some only, it is true where these are.
+fn on_branches(all: &[Branch]) -> Verdict {
+    let decided = all
+        .iter()
+        .map(|branch| on_branch(&branch.functional, &branch.nonnegative));
+    let mut proved: Vec<(&str, Proof)> = Vec::new();
+    let mut refuted: Option<Verdict> = None;
+    let mut open: Option<Verdict> = None;
+    for (branch, verdict) in all.iter().zip(decided) {
+        match verdict {
+            Verdict::Proved(proof) => proved.push((&branch.words, proof)),
+            Verdict::Refuted(_) if refuted.is_none() => {
+                refuted = Some(verdict.prefixed(&format!("where {}", branch.words)));
+            }
+            Verdict::Refuted(_) => {}
+            other if open.is_none() => {
+                open = Some(other.prefixed(&format!("where {}", branch.words)));
+            }
+            _ => {}
+        }
+    }
+    let Some((words, mut proof)) = proved.first().cloned() else {
+        return refuted
+            .or(open)
+            .unwrap_or_else(|| Verdict::undecided("there are no branches"));
+    };
+    match (refuted, open) {
+        (None, Some(open)) => open,
+        (Some(refuted), Some(_)) => refuted,
+        (None, None) => {
+            let joined = proved.into_iter().map(|(_, proof)| Verdict::Proved(proof));
+            joined.fold(Verdict::Proved(proof), Verdict::and)
+        }
+        (Some(Verdict::Refuted(counterexample)), None) => {
+            let each = proved.iter().map(|(words, _)| format!("({words})"));
+            let condition = match &proved[..] {
+                [_] => words.to_owned(),
+                _ => each.collect::<Vec<_>>().join(" or "),
+            };
+            proof.detail = format!(
+                "where {condition} {}; elsewhere not: {}",
+                proof.detail, counterexample.detail
+            );
+            Verdict::Conditional {
+                condition,
+                proof,
+                counterexample: Some(counterexample),
+            }
+        }
+        (Some(other), None) => other,
     }
 }
 
@@ -67,13 +147,21 @@ struct Judged {
     verdict: Verdict,
     /// What could not be solved for.
     open: Vec<String>,
+    /// What was solved for where a coefficient does not vanish.
+    pivots: Vec<String>,
 }
 
 impl<'f> Comparison<'f> {
-    fn new(functional: &'f Functional, variation: &'f Variation) -> Comparison<'f> {
+    /// Where some expressions are known not to be negative.
+    fn new(
+        functional: &'f Functional,
+        variation: &'f Variation,
+        nonnegative: &[Expr],
+    ) -> Comparison<'f> {
         let space = &*functional.space;
         let inside = |role: Role| groups(functional, role, None);
-        let imposed = Solved::new(space).with(&inside(Role::Imposed));
+        let imposed = Solved::new(space).where_nonnegative(nonnegative);
+        let imposed = imposed.with(&inside(Role::Imposed));
         Comparison {
             functional,
             variation,
@@ -253,24 +341,44 @@ impl<'f> Comparison<'f> {
     }
 
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
-        let mut verdict = Verdict::Proved(Proof::exact("", ""));
-        for &e in es {
-            let own = solved.verdict(e);
-            let is_proved = matches!(own, Verdict::Proved(_));
-            verdict = verdict.and(own);
-            if !is_proved {
+        let whole = of_all(es, solved);
+        let is_proved = matches!(whole, Verdict::Proved(_));
+        let cases = if solved.left.is_empty() || is_proved {
+            Vec::new()
+        } else {
+            solved.alternatives()
+        };
+        if cases.len() < 2 {
+            let labels = solved.left.iter().filter(|_| !solved.is_circular());
+            return Judged {
+                what,
+                verdict: whole,
+                open: labels.map(|group| format!("`{}`", group.label)).collect(),
+                pivots: Vec::new(),
+            };
+        }
+        let mut all = Verdict::Proved(Proof::exact("", ""));
+        let mut open = Vec::new();
+        let mut pivots = Vec::new();
+        for case in cases {
+            let verdict = of_all(es, &case);
+            let labels = case.left.iter().filter(|_| !case.is_circular());
+            let labels: Vec<String> = labels.map(|group| format!("`{}`", group.label)).collect();
+            // One case in which it is false is enough, whatever is open about others.
+            if let (Verdict::Refuted(_), true) = (&verdict, labels.is_empty()) {
+                all = verdict;
+                open.clear();
                 break;
             }
+            all = all.and(verdict);
+            open.extend(labels);
+            pivots.extend(case.pivots.iter().cloned());
         }
         Judged {
             what,
-            verdict,
-            open: if solved.is_circular() {
-                Vec::new()
-            } else {
-                let labels = solved.left.iter();
-                labels.map(|group| format!("`{}`", group.label)).collect()
-            },
+            verdict: all,
+            open,
+            pivots,
         }
     }
 
@@ -318,9 +426,13 @@ impl<'f> Comparison<'f> {
                 return refuted(&own.what, found.clone());
             }
         }
+        let mut pivots = pivots.clone();
         for own in judged {
             match own.verdict {
-                Verdict::Proved(proof) => all = all.and(Verdict::Proved(proof)),
+                Verdict::Proved(proof) => {
+                    pivots.extend(own.pivots);
+                    all = all.and(Verdict::Proved(proof));
+                }
                 other => {
                     let why = if !own.open.is_empty() {
                         format!(
@@ -341,7 +453,13 @@ impl<'f> Comparison<'f> {
         let Verdict::Proved(mut proof) = all else {
             return all;
         };
-        proof.on = on(pivots, inverted);
+        if self.is_contradictory() {
+            return Verdict::not_applicable(
+                "functional.euler",
+                "no field makes the functional stationary, and none satisfies what is stated",
+            );
+        }
+        proof.on = on(&pivots, inverted);
         if self
             .variation
             .pieces
@@ -359,6 +477,21 @@ impl<'f> Comparison<'f> {
             proof.detail.push_str(&format!(", {more}"));
         }
         Verdict::Proved(proof)
+    }
+
+    /// Whether the Euler equations and natural conditions contradict each other, so that there is nothing to compare.
+    fn is_contradictory(&self) -> bool {
+        let is_so = |on: &OnPiece| {
+            let functional = self.functional;
+            let Some(piece) = functional.piece(&on.piece) else {
+                return false;
+            };
+            let imposed = groups(functional, Role::Imposed, Some(&on.piece));
+            let here = self.derived.with_on(&piece.side, &imposed);
+            let here = here.with(&condition_groups(functional, on, &on.conditions));
+            here.contradiction().is_some()
+        };
+        self.derived.contradiction().is_some() || self.variation.pieces.iter().any(is_so)
     }
 
     /// Functions stated as conjugates whose formulas are not proved to be so: no gradient of them was undone.
@@ -492,6 +625,20 @@ impl<'f> Comparison<'f> {
     }
 }
 
+/// The verdict on several expressions where equations hold.
+fn of_all(es: &[Expr], solved: &Solved<'_>) -> Verdict {
+    let mut verdict = Verdict::Proved(Proof::exact("", ""));
+    for &e in es {
+        let own = solved.verdict(e);
+        let is_proved = matches!(own, Verdict::Proved(_));
+        verdict = verdict.and(own);
+        if !is_proved {
+            break;
+        }
+    }
+    verdict
+}
+
 fn refuted(what: &str, found: Counterexample) -> Verdict {
     let (lower, upper) = &found.residual;
     let size = if lower == upper {
@@ -506,6 +653,74 @@ fn refuted(what: &str, found: Counterexample) -> Verdict {
         quantity: what.to_owned(),
         ..found
     })
+}
+
+/// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it.
+fn where_defined(functional: &Functional) -> String {
+    let stated = functional.equations.iter();
+    let stated = stated.filter(|e| e.role != Role::Other);
+    let stated: Vec<Expr> = stated.flat_map(|e| e.residuals.iter().copied()).collect();
+    let mut densities: Vec<Expr> = vec![functional.density];
+    densities.extend(functional.pieces.iter().map(|piece| piece.density));
+    let mut all = conditions(functional, &densities, Need::Slope);
+    all.extend(conditions(functional, &stated, Need::Value));
+    if all.is_empty() {
+        return String::new();
+    }
+    let all: Vec<String> = all.into_iter().collect();
+    format!(", where {}", all.join(", "))
+}
+
+/// What an expression is needed for.
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    /// It has to have a value.
+    Value,
+    /// It has to have derivatives.
+    Slope,
+}
+
+/// Conditions under which expressions have values, or derivatives.
+fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<String> {
+    let g = &functional.space.graph;
+    let is_smooth = need == Need::Slope;
+    let condition = |e: Expr| {
+        let (inner, relation) = match g.node(e) {
+            Node::Power { base, exponent } => {
+                let number = g.as_number(*exponent);
+                let is_whole = number.and_then(rational::to_i64).is_some();
+                let is_negative = number.is_some_and(rational::is_negative);
+                let is_even_root =
+                    number.is_none_or(|n| n.denominator().trailing_zeros() != Some(0));
+                match (is_whole, is_even_root) {
+                    (true, _) if is_negative => (*base, "!="),
+                    (true, _) => return None,
+                    (false, true) if is_smooth || is_negative => (*base, ">"),
+                    (false, true) => (*base, ">="),
+                    (false, false) if is_smooth || is_negative => (*base, "!="),
+                    (false, false) => return None,
+                }
+            }
+            Node::Apply {
+                function,
+                arguments,
+            } => match function {
+                Function::Log => (*arguments.first()?, ">"),
+                Function::Abs if is_smooth => (*arguments.first()?, "!="),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let sign = known_sign(g, inner, &Assumptions::new());
+        let is_known = match relation {
+            ">" => sign.is_positive(),
+            ">=" => sign.is_nonnegative(),
+            _ => sign.is_nonzero(),
+        };
+        let has_jets = !functional.space.jets_in(&[inner]).is_empty();
+        (has_jets && !is_known).then(|| format!("{} {relation} 0", g.text(inner)))
+    };
+    g.reachable(es).into_iter().filter_map(condition).collect()
 }
 
 /// Where a proof holds.

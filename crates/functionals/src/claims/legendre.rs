@@ -31,6 +31,10 @@ impl Claim for Legendre {
         stated.map(|f| Some(f.name.clone())).collect()
     }
 
+    fn is_of_fields(&self) -> bool {
+        false
+    }
+
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let functional = cx.functional();
         let space = &*functional.space;

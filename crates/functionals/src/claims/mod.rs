@@ -1,5 +1,7 @@
 //! The claims about functionals, one file each, in a registry.
 
+pub mod admission;
+mod branches;
 mod degeneration;
 mod descent;
 mod duality;
@@ -8,10 +10,12 @@ mod legendre;
 mod modulo;
 mod multipliers;
 pub mod noether;
+mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
 mod solution;
 
+use self::admission::Admission;
 use crate::functional::{Functional, Problem};
 use crate::notation::{written, Node};
 use crate::ritz::Approximation;
@@ -96,17 +100,20 @@ pub struct Context<'p> {
     pub problem: &'p Problem,
     /// The first variation of its functional.
     pub variation: Result<Variation, VariationError>,
+    /// Which fields are admitted.
+    pub admission: Admission,
     /// What Ritz's method found, by degree, for the report.
     pub approximations: RefCell<Vec<Approximation>>,
 }
 
 impl<'p> Context<'p> {
-    /// The first variation is taken once.
+    /// The first variation is taken once, and what is imposed is looked at once.
     pub fn new(problem: &'p Problem) -> Context<'p> {
         let variation = variation(&problem.functional);
         Context {
             problem,
             variation,
+            admission: Admission::of(&problem.functional),
             approximations: RefCell::default(),
         }
     }
@@ -132,8 +139,25 @@ pub trait Claim: Sync {
     fn explanation(&self) -> &'static str;
     /// The subjects for this problem; empty where there is nothing to claim.
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>>;
+    /// Whether it speaks of the fields that the functional admits, so that it says nothing where there are none.
+    fn is_of_fields(&self) -> bool {
+        true
+    }
     /// Decides it.
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
+}
+
+/// Decides a claim: where it speaks of admitted fields, for those that there are.
+pub(crate) fn decided(claim: &dyn Claim, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+    if !claim.is_of_fields() {
+        return claim.decide(cx, subject);
+    }
+    if cx.admission.none.is_some() {
+        return cx.admission.applied(Verdict::undecided("")).into();
+    }
+    let Finding { verdict, formulas } = claim.decide(cx, subject);
+    let verdict = cx.admission.applied(verdict);
+    Finding { verdict, formulas }
 }
 
 /// All claims about functionals, in the order of the catalogue.

@@ -1,16 +1,20 @@
 //! Modulo which stated equations something vanishes: the fewest are named.
 
 use crate::elimination::{Group, Solved};
-use crate::functional::Functional;
+use crate::functional::{Functional, Role};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
-/// The stated equations that may be used in the interior, or on a piece, by label.
-pub(super) fn equations(functional: &Functional, on: Option<&str>) -> Vec<Group> {
+/// All that is stated of a functional.
+pub(super) const STATED: &[Role] = &[Role::Imposed, Role::Yielded, Role::Other];
+
+/// The stated equations with these roles that may be used in the interior, or on a piece, by label.
+pub(super) fn equations(functional: &Functional, on: Option<&str>, roles: &[Role]) -> Vec<Group> {
     functional
         .equations
         .iter()
         .filter(|e| e.on.is_none() || e.on.as_deref() == on)
+        .filter(|e| roles.contains(&e.role))
         .map(|e| Group {
             label: e.label.clone(),
             equations: e.residuals.clone(),
@@ -50,6 +54,48 @@ pub(super) fn vanishing(
         }
     }
     Err(Box::new(verdict))
+}
+
+/// A proof that a difference of densities vanishes for all admitted fields; on the boundary it may be of second order in stated equations:
+/// then it and its derivatives by all jets vanish where they hold, so that neither the value of the functional nor its first variation
+/// there depends on it. With it what is to be said.
+pub(super) fn vanishing_difference(
+    functional: &Functional,
+    difference: Expr,
+    imposed: &[Group],
+    stated: &[Group],
+) -> Result<(Proof, Option<String>), Box<Verdict>> {
+    let refused = match vanishing(functional, &[difference], imposed) {
+        Ok((proof, needed)) if needed.is_empty() => return Ok((proof, None)),
+        Ok((proof, needed)) => {
+            let note = format!("modulo {}, which is imposed", labels(&needed));
+            return Ok((proof, Some(note)));
+        }
+        Err(verdict) => verdict,
+    };
+    if stated.is_empty() {
+        return Err(refused);
+    }
+    let space = &*functional.space;
+    let jets = space.jets_in(&[difference]);
+    let slopes = jets.iter().map(|jet| space.partial(difference, jet));
+    let slopes: Vec<Expr> = slopes.collect();
+    let value = vanishing(functional, &[difference], stated);
+    match (value, vanishing(functional, &slopes, stated)) {
+        (Ok((one, of_value)), Ok((other, of_slopes))) => {
+            let note = format!(
+                "modulo {}, of second order with {}",
+                labels(&of_value),
+                labels(&of_slopes)
+            );
+            let both = Verdict::Proved(one).and(Verdict::Proved(other));
+            match both {
+                Verdict::Proved(proof) => Ok((proof, Some(note))),
+                _ => Err(refused),
+            }
+        }
+        _ => Err(refused),
+    }
 }
 
 /// The subsets of 0, …, n − 1 with `count` members.

@@ -1,6 +1,6 @@
 //! `functional.multipliers`: the level above follows by Lagrange multipliers that become fields, and by the semi-inverse method.
 
-use super::modulo::{equations, labels, vanishing};
+use super::modulo::{equations, labels, vanishing, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Equation, Field, Functional, Relation, Release};
@@ -198,7 +198,7 @@ impl Way<'_> {
         let es: Vec<Expr> = components
             .map(|&component| euler_with(space, density, held, component))
             .collect();
-        let (_, needed) = vanishing(self.above, &es, &equations(self.above, None))?;
+        let (_, needed) = vanishing(self.above, &es, &equations(self.above, None, STATED))?;
         let names = fields.iter().map(|field| field.name.clone()).collect();
         Ok((names, needed))
     }
@@ -235,7 +235,7 @@ impl Way<'_> {
             })
             .collect();
         let es: Vec<Expr> = conditions.iter().map(|own| own.value).collect();
-        let (_, needed) = vanishing(self.above, &es, &equations(self.above, Some(name)))?;
+        let (_, needed) = vanishing(self.above, &es, &equations(self.above, Some(name), STATED))?;
         let mut fields: Vec<String> = conditions
             .iter()
             .map(|own| self.above.space.component_at(own.component).tensor)
@@ -283,7 +283,7 @@ impl Way<'_> {
             let of_field = varied.euler.iter();
             let of_field = of_field.filter(|(c, _)| field.components.contains(c));
             let euler: Vec<Expr> = of_field.map(|(_, value)| *value).collect();
-            let found = vanishing(above, &euler, &equations(above, None));
+            let found = vanishing(above, &euler, &equations(above, None, STATED));
             let (_, needed) = found.map_err(|verdict| {
                 let what = format!("the Euler equation of {} does not follow", field.name);
                 Box::new(verdict.prefixed(&what))

@@ -1,11 +1,11 @@
 //! `functional.noether`: symmetries of a functional and the currents without divergence that they give.
 
+use super::reduction::restricted;
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Field, Functional, Role};
-use crate::space::{Component, Jet, Space};
-
-use crate::variation::{flux, Form, Variation};
+use crate::functional::{Functional, Role};
+use crate::space::{Jet, Space};
+use crate::variation::{euler_expression, flux, Form, Variation};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{rational, simplify, Expr, Rational, Verdict};
 use std::collections::BTreeMap;
@@ -44,11 +44,21 @@ impl Claim for Noether {
             .into_iter()
             .find(|own| Some(own.name.as_str()) == subject);
         match (own, &cx.variation) {
-            (Some(own), Ok(variation)) => decided(cx.functional(), variation, own),
+            (Some(own), Ok(variation)) => match inside(cx.functional(), variation) {
+                Some(why) => Verdict::undecided(why).into(),
+                None => decided(cx.functional(), variation, own),
+            },
             (None, _) => Verdict::undecided("there is no such symmetry").into(),
             (_, Err(problem)) => Verdict::undecided(problem.to_string()).into(),
         }
     }
+}
+
+/// Why solutions do not satisfy the Euler equations: what is imposed in the interior restricts the variations.
+fn inside(functional: &Functional, variation: &Variation) -> Option<String> {
+    let mut own = functional.clone();
+    own.equations.retain(|e| e.on.is_none());
+    restricted(&own, variation)
 }
 
 /// A symmetry: how independent variables and components move.
@@ -263,140 +273,331 @@ fn prolonged(space: &Space, own: &Generator, jet: &Jet) -> Expr {
     rate
 }
 
-/// A scaling with the exponents of its fields, and what they are.
-fn settled(functional: &Functional, own: Generator) -> (Generator, Vec<(String, Rational)>) {
+/// A scaling with the exponents of its fields, and what they are in words.
+fn settled(functional: &Functional, own: Generator) -> (Generator, String) {
     if !own.is_scaling {
-        return (own, Vec::new());
+        return (own, String::new());
     }
-    let fields: Vec<&Field> = functional.interior().collect();
-    let exponents = exponents(functional, &own, &fields);
-    let g = &functional.space.graph;
-    let mut eta = BTreeMap::new();
-    let mut told = Vec::new();
-    for (field, exponent) in fields.iter().zip(exponents) {
-        for &component in &field.components {
-            let value = functional.space.jet(component, &[]);
-            eta.insert(component, g.mul(&[g.number(exponent.clone()), value]));
-        }
-        told.push((field.name.clone(), exponent));
-    }
-    (Generator { eta, ..own }, told)
-}
-
-/// Exponents for which the density without its data is homogeneous, found at points where it has simple values; for a density that is not,
-/// those of a quadratic one.
-fn exponents(functional: &Functional, own: &Generator, fields: &[&Field]) -> Vec<Rational> {
+    let scaling = Scaling::new(functional, &own);
+    let found = scaling.exponents();
     let space = &*functional.space;
     let g = &space.graph;
-    let n = space.coordinates.len() as i64;
-    let otherwise = rational::ratio(2 - n, 2).unwrap_or(Rational::ZERO);
-    let of = |weights: &[i64]| {
-        let mut eta = BTreeMap::new();
-        for (field, &weight) in fields.iter().zip(weights) {
-            for &component in &field.components {
-                eta.insert(
-                    component,
-                    g.mul(&[g.integer(weight), space.jet(component, &[])]),
-                );
-            }
-        }
-        let own = Generator {
-            name: String::new(),
-            words: String::new(),
-            xi: own.xi.clone(),
-            eta,
-            is_scaling: false,
-        };
-        let varied: Vec<usize> = fields.iter().flat_map(|f| f.components.clone()).collect();
-        space.explicit(defect(functional, &own, &varied))
+    let own_eta = |(&component, &exponent): (&usize, &Expr)| {
+        (component, g.mul(&[exponent, space.jet(component, &[])]))
     };
-    let zero = vec![0; fields.len()];
-    let base = of(&zero);
-    let slopes: Vec<Expr> = (0..fields.len())
-        .map(|k| {
-            let mut weights = zero.clone();
-            weights[k] = 1;
-            g.sub(of(&weights), base)
-        })
-        .collect();
-    let mut all = slopes;
-    all.push(base);
-    let rows: Vec<Vec<f64>> = (1..=fields.len() as u64 + 4)
-        .filter_map(|seed| sampled(functional, &all, seed))
-        .collect();
-    let found = solved(rows, fields.len());
-    found
-        .into_iter()
-        .map(|value| value.and_then(simple).unwrap_or_else(|| otherwise.clone()))
-        .collect()
+    let eta = scaling.components.iter().zip(&found.values).map(own_eta);
+    let eta = eta.collect();
+    (Generator { eta, ..own }, scaling.told(&found))
 }
 
-/// Values at a point: data vanish, everything else has values that depend on its name only.
-fn sampled(functional: &Functional, es: &[Expr], seed: u64) -> Option<Vec<f64>> {
-    let space = &*functional.space;
-    let is_data = |component: &Component| !component.is_varied;
-    let values = space.graph.evaluate_f64(es, &|symbol| {
-        if let Some(jet) = space.as_jet(symbol) {
-            if is_data(&space.component_at(jet.component)) {
-                return Some(0.0);
+/// The exponents by which the components of the fields are scaled: unknowns in which the defect is affine, `S = S_0 + Σ ε_c S_c`.
+struct Scaling<'f> {
+    functional: &'f Functional,
+    components: Vec<usize>,
+    /// S_c for every component, and S_0 behind them.
+    defects: Vec<Expr>,
+}
+
+/// Exponents, one for each component.
+struct Exponents {
+    values: Vec<Expr>,
+    /// Other exponents that do as well: directions in which all of them may be changed.
+    directions: Vec<Vec<Expr>>,
+    /// Whether there are any for which the equations hold.
+    exist: bool,
+}
+
+impl<'f> Scaling<'f> {
+    fn new(functional: &'f Functional, own: &Generator) -> Scaling<'f> {
+        let space = &*functional.space;
+        let g = &space.graph;
+        let fields = functional.interior();
+        let components: Vec<usize> = fields.flat_map(|f| f.components.clone()).collect();
+        let of = |only: Option<usize>| {
+            let eta = only.map(|component| (component, space.jet(component, &[])));
+            let own = Generator {
+                name: String::new(),
+                words: String::new(),
+                xi: own.xi.clone(),
+                eta: eta.into_iter().collect(),
+                is_scaling: false,
+            };
+            space.explicit(defect(functional, &own, &components))
+        };
+        let base = of(None);
+        let mut defects: Vec<Expr> = components
+            .iter()
+            .map(|&component| g.sub(of(Some(component)), base))
+            .collect();
+        defects.push(base);
+        Scaling {
+            functional,
+            components,
+            defects,
+        }
+    }
+
+    /// Exponents for which the defect vanishes; else those for which it is a divergence; else those for which it vanishes without data.
+    /// Components of one tensor have one exponent where that can be.
+    fn exponents(&self) -> Exponents {
+        let space = &*self.functional.space;
+        let varied = &self.components;
+        let euler = |&component: &usize| -> Vec<Expr> {
+            let own = self.defects.iter();
+            own.map(|&e| euler_expression(space, e, component))
+                .collect()
+        };
+        let of_divergence: Vec<Vec<Expr>> = varied.iter().map(euler).collect();
+        let systems = [
+            (vec![self.defects.clone()], false),
+            (of_divergence, false),
+            (vec![self.defects.clone()], true),
+        ];
+        for (system, is_free_of_data) in &systems {
+            for are_tensors in [true, false] {
+                let found = self.solved(system, *is_free_of_data, are_tensors);
+                if let Some((values, directions)) = found {
+                    let exist = !is_free_of_data;
+                    return Exponents {
+                        values,
+                        directions,
+                        exist,
+                    };
+                }
             }
         }
-        let name = space.graph.symbol_name(symbol);
-        let mut hash = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        for byte in name.bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-            hash ^= hash >> 29;
+        Exponents {
+            values: vec![self.otherwise(); varied.len()],
+            directions: Vec::new(),
+            exist: false,
         }
-        Some(0.25 + (hash % 1000) as f64 / 800.0)
-    });
-    values.ok().filter(|own| own.iter().all(|v| v.is_finite()))
+    }
+
+    /// The exponent for a quadratic density.
+    fn otherwise(&self) -> Expr {
+        let n = self.functional.space.coordinates.len() as i64;
+        let own = rational::ratio(2 - n, 2).unwrap_or(Rational::ZERO);
+        self.functional.space.graph.number(own)
+    }
+
+    /// The solution of equations that are affine in the exponents and hold for all jets: from their values at some, which are necessary,
+    /// and then proved to be enough.
+    fn solved(
+        &self,
+        system: &[Vec<Expr>],
+        is_free_of_data: bool,
+        are_tensors: bool,
+    ) -> Option<(Vec<Expr>, Vec<Vec<Expr>>)> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let count = self.components.len();
+        let mut rows = if are_tensors {
+            self.tensors()
+        } else {
+            Vec::new()
+        };
+        for row in system {
+            for seed in 1..=count as u64 + 3 {
+                let at = |&e: &Expr| self.at_point(e, seed, is_free_of_data);
+                rows.push(row.iter().map(at).collect());
+            }
+        }
+        let (values, directions) = affine_solution(space, rows, count, self.otherwise())?;
+        let holds = |x: &[Expr], is_affine: bool| {
+            system.iter().all(|row| {
+                let mut terms: Vec<Expr> =
+                    row.iter().zip(x).map(|(&r, &x)| g.mul(&[r, x])).collect();
+                terms.extend(row.last().filter(|_| is_affine));
+                let sum = g.add(&terms);
+                let sum = if is_free_of_data {
+                    self.without_data(sum)
+                } else {
+                    sum
+                };
+                g.is_zero(sum) || space.vanish(&[sum])
+            })
+        };
+        let directions: Vec<Vec<Expr>> = directions
+            .into_iter()
+            .filter(|own| holds(own, false))
+            .collect();
+        holds(&values, true).then_some((values, directions))
+    }
+
+    /// Equal exponents for the components of a tensor.
+    fn tensors(&self) -> Vec<Vec<Expr>> {
+        let g = &self.functional.space.graph;
+        let count = self.components.len();
+        let place = |component: &usize| self.components.iter().position(|own| own == component);
+        let mut rows = Vec::new();
+        for field in self.functional.interior() {
+            for pair in field.components.windows(2) {
+                let mut row = vec![g.zero(); count + 1];
+                if let [Some(one), Some(other)] = [place(&pair[0]), place(&pair[1])] {
+                    row[one] = g.one();
+                    row[other] = g.integer(-1);
+                }
+                rows.push(row);
+            }
+        }
+        rows
+    }
+
+    fn is_data(&self, component: usize) -> bool {
+        !self.functional.space.component_at(component).is_varied
+    }
+
+    fn without_data(&self, e: Expr) -> Expr {
+        let space = &*self.functional.space;
+        space.replace(e, &|symbol| {
+            let jet = space.as_jet(symbol)?;
+            self.is_data(jet.component).then(|| space.graph.zero())
+        })
+    }
+
+    /// Jets and places with rational values that depend on their names and the seed only; parameters stay.
+    fn at_point(&self, e: Expr, seed: u64, is_free_of_data: bool) -> Expr {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        space.replace(e, &|symbol| {
+            let jet = space.as_jet(symbol);
+            let is_place = space
+                .coordinates
+                .iter()
+                .any(|c| g.as_symbol(c.expr) == Some(symbol));
+            match jet {
+                Some(jet) if is_free_of_data && self.is_data(jet.component) => Some(g.zero()),
+                None if !is_place => None,
+                _ => Some(g.number(small(g.symbol_name(symbol), seed))),
+            }
+        })
+    }
+
+    fn told(&self, found: &Exponents) -> String {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let name = |at: usize| {
+            let component = space.component_at(self.components[at]);
+            let field = self
+                .functional
+                .interior()
+                .find(|f| f.name == component.tensor);
+            let places = field.map_or(Vec::new(), |f| {
+                let own = f.components.iter();
+                own.filter_map(|c| self.components.iter().position(|own| own == c))
+                    .collect()
+            });
+            let are_equal = places.iter().all(|&k| found.values[k] == found.values[at])
+                && found
+                    .directions
+                    .iter()
+                    .all(|d| places.iter().all(|&k| d[k] == d[at]));
+            if are_equal {
+                component.tensor
+            } else {
+                component.name
+            }
+        };
+        let mut said: Vec<(String, Expr)> = Vec::new();
+        for (at, &value) in found.values.iter().enumerate() {
+            let own = (name(at), value);
+            if !said.contains(&own) {
+                said.push(own);
+            }
+        }
+        let each = said
+            .iter()
+            .map(|(name, value)| format!("{name} with the exponent {}", g.text(*value)));
+        let mut words = each.collect::<Vec<_>>().join(", ");
+        if !found.exist {
+            words.push_str("; there are no exponents for which the defect vanishes");
+        }
+        for direction in &found.directions {
+            let mut own: Vec<String> = Vec::new();
+            for (at, &factor) in direction.iter().enumerate().filter(|(_, &e)| !g.is_zero(e)) {
+                let text = format!("{} by {}", name(at), g.text(factor));
+                if !own.contains(&text) {
+                    own.push(text);
+                }
+            }
+            words.push_str(&format!(
+                "; as well with any multiple of a change of {}",
+                own.join(", ")
+            ));
+        }
+        format!(" ({words})")
+    }
 }
 
-/// The solution of `Σ row_k x_k + row_last = 0` by elimination; what is free is left open.
-fn solved(mut rows: Vec<Vec<f64>>, count: usize) -> Vec<Option<f64>> {
-    let mut found = vec![None; count];
-    let mut next = 0;
-    let mut pivots = Vec::new();
+/// A small rational number that is not zero.
+fn small(name: &str, seed: u64) -> Rational {
+    let mut hash = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    for byte in name.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        hash ^= hash >> 29;
+    }
+    rational::ratio((hash % 40) as i64 + 3, 8).unwrap_or(Rational::ZERO)
+}
+
+/// All solutions of `Σ row_k x_k + row_last = 0`: one in which what is free is `free`, and the directions of the others. `None` where there
+/// is none.
+fn affine_solution(
+    space: &Space,
+    mut rows: Vec<Vec<Expr>>,
+    count: usize,
+    free: Expr,
+) -> Option<(Vec<Expr>, Vec<Vec<Expr>>)> {
+    let g = &space.graph;
+    let vanishes = |e: Expr| g.is_zero(e) || (g.as_number(e).is_none() && space.vanish(&[e]));
+    let mut pivots: Vec<usize> = Vec::new();
     for column in 0..count {
-        let best = (next..rows.len())
-            .max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
-        let Some(best) = best.filter(|&r| rows[r][column].abs() > 1e-9) else {
+        let next = pivots.len();
+        let Some(best) = (next..rows.len()).find(|&r| !vanishes(rows[r][column])) else {
             continue;
         };
         rows.swap(next, best);
-        let own: Vec<f64> = rows[next].iter().map(|v| v / rows[next][column]).collect();
+        let pivot = rows[next][column];
+        let own: Vec<Expr> = rows[next].iter().map(|&v| g.div(v, pivot)).collect();
         for (r, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
-            if r != next {
-                row.iter_mut().zip(&own).for_each(|(v, o)| *v -= factor * o);
+            if r == next || g.is_zero(factor) {
+                continue;
+            }
+            for (value, &above) in row.iter_mut().zip(&own) {
+                *value = g.sub(*value, g.mul(&[factor, above]));
             }
         }
         rows[next] = own;
-        pivots.push((next, column));
-        next += 1;
+        pivots.push(column);
     }
-    let is_consistent = rows.iter().skip(next).all(|row| row[count].abs() < 1e-7);
-    for (row, column) in pivots.into_iter().filter(|_| is_consistent) {
-        found[column] = Some(-rows[row][count]);
+    if rows[pivots.len()..].iter().any(|row| !vanishes(row[count])) {
+        return None;
     }
-    found
-}
-
-/// A fraction with a small denominator.
-fn simple(value: f64) -> Option<Rational> {
-    (1..=24).find_map(|below: i64| {
-        let above = (value * below as f64).round();
-        ((above / below as f64 - value).abs() < 1e-7)
-            .then(|| rational::ratio(above as i64, below))
-            .flatten()
-    })
+    let short = |e: Expr| simplify::simplify(g, e, &simplify::Options::default());
+    let open: Vec<usize> = (0..count).filter(|c| !pivots.contains(c)).collect();
+    let mut values = vec![free; count];
+    for (row, &column) in rows.iter().zip(&pivots) {
+        let mut terms = vec![row[count]];
+        terms.extend(open.iter().map(|&c| g.mul(&[row[c], free])));
+        values[column] = short(g.neg(g.add(&terms)));
+    }
+    let direction = |&own: &usize| {
+        let mut along = vec![g.zero(); count];
+        along[own] = g.one();
+        for (row, &column) in rows.iter().zip(&pivots) {
+            along[column] = short(g.neg(row[own]));
+        }
+        along
+    };
+    let directions = open.iter().map(direction).collect();
+    Some((values, directions))
 }
 
 fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Finding {
     let space = &*functional.space;
     let g = &space.graph;
     let words = own.words.clone();
-    let (own, exponents) = settled(functional, own);
+    let (own, scaled) = settled(functional, own);
     let Some(current) = current_of(functional, &own) else {
         return Verdict::undecided("the density contains derivatives of higher order than two")
             .into();
@@ -427,7 +628,7 @@ fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Fi
         ))
         .into();
     }
-    let verdict = on_solutions(functional, variation, &current, &words, &exponents);
+    let verdict = on_solutions(functional, variation, &current, &format!("{words}{scaled}"));
     Finding {
         verdict,
         formulas: formulas(functional, &current),
@@ -439,7 +640,6 @@ fn on_solutions(
     variation: &Variation,
     current: &Current,
     words: &str,
-    exponents: &[(String, Rational)],
 ) -> Verdict {
     let space = &*functional.space;
     let imposed = functional
@@ -461,37 +661,43 @@ fn on_solutions(
                 .collect(),
         }
     }));
-    let scaled: Vec<String> = exponents
-        .iter()
-        .map(|(name, exponent)| format!("{name} with the exponent {exponent}"))
-        .collect();
-    let scaled = if scaled.is_empty() {
-        String::new()
-    } else {
-        format!(" ({})", scaled.join(", "))
-    };
     let explicit = space.explicit(current.defect);
     if space.vanish(&[current.defect]) || space.vanish(&[explicit]) {
         return Verdict::Proved(Proof::exact(
             "all solutions",
-            format!("{words}{scaled} leaves the density as it is, and the divergence of its current is Σ E Q, which vanishes for solutions"),
+            format!("{words} leaves the density as it is, and the divergence of its current is Σ E Q, which vanishes for solutions"),
         ));
     }
     let solved = Solved::new(space).with(&groups);
     match solved.verdict(current.defect) {
         Verdict::Proved(proof) => Verdict::Proved(Proof {
             on: "all solutions".into(),
-            detail: format!("the defect of {words}{scaled} vanishes where the Euler equations hold"),
+            detail: format!("the defect of {words} vanishes where the Euler equations hold"),
             ..proof
         }),
+        _ if is_divergence(functional, variation, current.defect) => Verdict::Proved(Proof::exact(
+            "all solutions",
+            format!("the defect of {words} is itself a divergence, as its Euler expressions vanish: the current without it has none"),
+        )),
         Verdict::Refuted(found) if solved.left.is_empty() => Verdict::Refuted(found).prefixed(
-            &format!("the current of {words}{scaled} has a divergence, the defect shown"),
+            &format!("the current of {words} has a divergence, the defect shown"),
         ),
         Verdict::Refuted(_) => Verdict::undecided(format!(
             "the defect of {words} does not vanish identically, and the Euler equations could not be solved"
         )),
         other => other,
     }
+}
+
+/// Whether an expression is a divergence, whatever the fields are.
+fn is_divergence(functional: &Functional, variation: &Variation, e: Expr) -> bool {
+    let space = &*functional.space;
+    let e = space.explicit(e);
+    let mut varied = variation.euler.iter().map(|(component, _)| *component);
+    varied.all(|component| {
+        let own = euler_expression(space, e, component);
+        space.graph.is_zero(own) || space.vanish(&[own])
+    })
 }
 
 /// Longer formulas are left to programs.
@@ -522,21 +728,27 @@ fn formulas(functional: &Functional, current: &Current) -> Vec<Formula> {
 
 #[cfg(test)]
 mod tests {
-    use super::{simple, solved};
+    use super::affine_solution;
+    use crate::space::Space;
+    use chetaev_symbolic::Expr;
 
     #[test]
-    fn exponents_are_fractions() {
-        let rows = vec![
-            vec![2.0, 0.0, 1.0],
-            vec![0.0, 3.0, -1.0],
-            vec![2.0, 3.0, 0.0],
-        ];
-        let own: Vec<_> = solved(rows, 2)
-            .into_iter()
-            .map(|v| v.and_then(simple))
-            .collect();
-        let text: Vec<String> = own.into_iter().flatten().map(|r| r.to_string()).collect();
-        assert_eq!(text, ["-1/2", "1/3"]);
-        assert!(solved(vec![vec![1.0, 1.0], vec![1.0, 2.0]], 1)[0].is_none());
+    fn all_exponents_are_found() {
+        let space = Space::new(&[("x".into(), "x".into(), false)]);
+        let g = &space.graph;
+        let of = |rows: &[&[i64]]| -> Vec<Vec<Expr>> {
+            let row = |row: &&[i64]| row.iter().map(|&n| g.integer(n)).collect();
+            rows.iter().map(row).collect()
+        };
+        let solved = |rows: &[&[i64]]| affine_solution(&space, of(rows), 2, g.one());
+        let text = |es: &[Expr]| es.iter().map(|&e| g.text(e)).collect::<Vec<_>>();
+        let (values, directions) = solved(&[&[2, 0, 1], &[0, 3, -1], &[2, 3, 0]]).unwrap();
+        assert_eq!(text(&values), ["-1/2", "1/3"]);
+        assert!(directions.is_empty());
+        // One equation for two of them: what is free takes the value given, and the other follows.
+        let (values, directions) = solved(&[&[2, 4, -10]]).unwrap();
+        assert_eq!(text(&values), ["3", "1"]);
+        assert_eq!(text(&directions[0]), ["-2", "1"]);
+        assert!(solved(&[&[1, 1, 1], &[1, 1, 2]]).is_none());
     }
 }

@@ -1,6 +1,7 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
 use super::degeneration::{other_value, put_in};
+use super::reduction::{reduced, restricted};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
@@ -49,7 +50,13 @@ impl Claim for Stated {
                     functional: cx.functional(),
                     solution: own,
                 };
-                inserted.verdict(variation).into()
+                let reduced = reduced(cx.functional());
+                match crate::variation::variation(&reduced) {
+                    Ok(own) if restricted(&reduced, &own).is_none() => {
+                        inserted.verdict(&own).into()
+                    }
+                    _ => inserted.verdict(variation).into(),
+                }
             }
             (None, _) => Verdict::undecided("there is no such solution").into(),
             (_, Err(problem)) => Verdict::undecided(problem.to_string()).into(),
@@ -65,6 +72,12 @@ struct Inserted<'f> {
 impl Inserted<'_> {
     fn verdict(&self, variation: &Variation) -> Verdict {
         let space = &*self.functional.space;
+        if let Some(piece) = self.unplaced(variation) {
+            return Verdict::undecided(format!(
+                "where {piece} lies is not stated, so that the conditions on it were not looked at: [solutions.{}.pieces] says it, on the box of its intervals",
+                self.solution.name
+            ));
+        }
         for (what, e) in self.residuals(variation) {
             match space.vanishing(&[e], true) {
                 Verdict::Proved(_) => {}
@@ -154,6 +167,35 @@ impl Inserted<'_> {
         )
     }
 
+    /// A piece with conditions whose place is not stated.
+    fn unplaced(&self, variation: &Variation) -> Option<String> {
+        let is_placed = |name: &str| matches!(self.side(name), Some(Side::Flat { .. }));
+        let imposed = self.functional.with_role(Role::Imposed);
+        let imposed = imposed.filter_map(|e| e.on.clone());
+        let imposed = imposed.flat_map(|on| {
+            on.split(',')
+                .map(|name| name.trim().to_owned())
+                .collect::<Vec<_>>()
+        });
+        let free = variation
+            .pieces
+            .iter()
+            .filter(|on| !on.conditions.is_empty());
+        let mut all = imposed.chain(free.map(|on| on.piece.clone()));
+        all.find(|name| !is_placed(name))
+    }
+
+    /// An expression where two faces meet.
+    fn meeting(&self, (one, other): (&str, &str), e: Expr) -> Option<Expr> {
+        let space = &*self.functional.space;
+        let own = self.on(one, e)?;
+        let Some(Side::Flat { axis, at, .. }) = self.side(other) else {
+            return None;
+        };
+        let place = space.coordinates.get(*axis)?.expr;
+        Some(space.graph.substitute(own, &[(place, *at)]))
+    }
+
     /// What must vanish.
     fn residuals(&self, variation: &Variation) -> Vec<(String, Expr)> {
         let space = &*self.functional.space;
@@ -163,7 +205,10 @@ impl Inserted<'_> {
             for &e in &equation.residuals {
                 let own = match &equation.on {
                     None => Some(self.at(e)),
-                    Some(piece) => self.on(piece, e),
+                    Some(on) => match on.split_once(',') {
+                        Some((one, other)) => self.meeting((one.trim(), other.trim()), e),
+                        None => self.on(on, e),
+                    },
                 };
                 found.extend(own.map(|e| (what.clone(), e)));
             }
@@ -179,6 +224,13 @@ impl Inserted<'_> {
                 let own = self.on(&on.piece, condition.value);
                 found.extend(own.map(|e| (what, e)));
             }
+        }
+        for corner in &variation.corners {
+            let (one, other) = (corner.pieces.0.as_str(), corner.pieces.1.as_str());
+            let name = space.component_at(corner.component).name;
+            let what = format!("the condition of {name} where {one} and {other} meet");
+            let own = self.meeting((one, other), corner.value);
+            found.extend(own.map(|e| (what, e)));
         }
         found
     }

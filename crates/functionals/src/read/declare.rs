@@ -172,7 +172,10 @@ impl Reader<'_> {
                 .filter_map(|end| self.scalar(scope, end))
                 .collect();
             match values[..] {
-                [lower, upper] => found.push(Interval { axis, lower, upper }),
+                [lower, upper] => {
+                    self.is_not_empty(scope, (lower, upper), raw);
+                    found.push(Interval { axis, lower, upper });
+                }
                 _ => {
                     let message = "an interval has two ends";
                     self.push(Diagnostic::error("wrong-length", raw.place, message));
@@ -180,6 +183,28 @@ impl Reader<'_> {
             }
         }
         found
+    }
+
+    /// An interval whose ends are numbers has a length.
+    fn is_not_empty(&mut self, scope: &Scope, (lower, upper): (Expr, Expr), raw: &Raw) {
+        let g = &scope.space.graph;
+        let length = g.sub(upper, lower);
+        let sign = crate::signs::enclosure(&scope.space, length).map(|own| own.sign());
+        let is_positive = match sign {
+            // Parameters have no values.
+            None => return,
+            Some(Some(sign)) => sign == std::cmp::Ordering::Greater,
+            Some(None) => !scope.space.vanish(&[length]),
+        };
+        if is_positive {
+            return;
+        }
+        let (from, to) = (g.text(lower), g.text(upper));
+        let message = format!("the interval from {from} to {to} has no positive length");
+        self.push(
+            Diagnostic::error("empty-interval", raw.place, message)
+                .hint("the smaller end comes first; a parameter in it needs another value"),
+        );
     }
 
     fn shape(&mut self, text: &Text) -> Option<Shape> {

@@ -2,6 +2,7 @@
 
 mod declare;
 mod family;
+mod living;
 mod relations;
 mod reserved;
 mod ritz;

@@ -1,6 +1,7 @@
 //! Relations to other functionals, each read from its own file onto the same symbols.
 
 use super::declare::{constants, place_holders, shape_of};
+use super::living::Living;
 use super::Reader;
 use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
@@ -80,6 +81,8 @@ impl Reader<'_> {
                 let message = "the flux is a vector: one index is free";
                 self.push(Diagnostic::error("index-mismatch", text.place, message));
             }
+            let living = Living::of(&functional.scope, &functional.data, &functional.fields);
+            self.lives_there(&living, &components, None, &text);
             Some((text.content, components))
         });
         Some(Relation::Duality { other, flux })

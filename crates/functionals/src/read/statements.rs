@@ -1,5 +1,6 @@
 //! Definitions, densities, boundary pieces and equations.
 
+use super::living::Living;
 use super::Reader;
 use crate::functional::{Definition, Equation, Functional, Interval, Piece, Role, Side};
 use crate::notation::{free_letters, parse, parse_sides};
@@ -53,7 +54,13 @@ impl Reader<'_> {
             self.without_normal(&scope, density, &text);
         }
         let pieces = self.pieces(table, &scope, &intervals);
-        let equations = self.equations(table, &scope, &pieces);
+        let living = Living::of(&scope, &data, &fields);
+        self.pieces_exist(table, &living, &pieces);
+        if let Some((_, density)) = density {
+            self.lives_there(&living, &[density], None, &text);
+        }
+        self.boundary_lives(table, &living, &pieces);
+        let equations = self.equations(table, &scope, &pieces, &living);
         let symmetries = self.symmetries(table);
         let name = self.optional(table, "name");
         let level = self.optional(table, "level");
@@ -381,7 +388,13 @@ impl Reader<'_> {
         }
     }
 
-    fn equations(&mut self, table: &Table, scope: &Scope, pieces: &[Piece]) -> Vec<Equation> {
+    fn equations(
+        &mut self,
+        table: &Table,
+        scope: &Scope,
+        pieces: &[Piece],
+        living: &Living<'_>,
+    ) -> Vec<Equation> {
         let mut found = Vec::new();
         let imposed = table.get("imposed").map(|raw| self.texts(raw, "imposed"));
         let yields = table.get("yields").map(|raw| self.texts(raw, "yields"));
@@ -394,7 +407,11 @@ impl Reader<'_> {
                 label if yields.iter().any(|text| text.content == *label) => Role::Yielded,
                 _ => Role::Other,
             };
-            found.extend(self.equation(table, scope, pieces, (key, raw), role));
+            let own = self.equation(table, scope, pieces, (key, raw), role);
+            if let Some(own) = &own {
+                self.equation_lives(table, living, own, raw);
+            }
+            found.extend(own);
         }
         for text in imposed.iter().chain(&yields) {
             if entries.iter().all(|(key, _)| key.content != text.content) {

@@ -1,17 +1,23 @@
 //! All integration tests of this package in one program, so that the package is linked once.
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
+mod admission;
 mod bar;
+mod branches;
 mod classical;
 mod conjugates;
 mod curved;
+mod degenerations;
 mod examples;
 mod indexed;
 mod methods;
 mod mutants;
 mod names;
 mod noether;
+mod pieces;
 mod printed;
 mod reference;
+mod restrictions;
+mod second_variation;
 mod table;
 mod values;

@@ -92,7 +92,7 @@ fn jacobis_condition_has_the_conjugate_point_of_the_reference() {
         &studied_text("p4p", &model, &[("l", "2")]),
         "functional.second-variation",
     );
-    assert_eq!(word, "numerical", "{detail}");
+    assert_eq!(word, "proved", "{detail}");
     let (word, detail) = verdict(
         &studied_text("p4p", &model, &[("l", "5/2")]),
         "functional.second-variation",

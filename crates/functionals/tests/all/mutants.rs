@@ -3,11 +3,15 @@
 use crate::table::{read_text, row_text, studied_text, ROWS};
 use chetaev_model::Style;
 
-/// The verdict on a row after a replacement in its text.
+/// The verdict on a row after a replacement in its text; tractions have values on the whole boundary.
 fn mutated(row: &str, claim: &str, from: &str, to: &str) -> (String, String) {
     let text = row_text(row);
     assert!(text.contains(from), "{row} has no `{from}`");
-    let study = studied_text(row, &text.replace(from, to), &[("d", "2")]);
+    let mut text = text.replace(from, to);
+    if to.contains("-Pbar_k (") {
+        text.push_str("\n[data]\nPbar = \"vector\"\n");
+    }
+    let study = studied_text(row, &text, &[("d", "2")]);
     let found = study.verdicts.iter().find(|d| d.claim == claim).unwrap();
     let verdict = &found.finding.verdict;
     (verdict.word().to_owned(), verdict.detail().to_owned())
@@ -197,6 +201,12 @@ fn mistakes_in_a_text_are_shown_with_what_to_do() {
             "[define]\nG_ij = \"H_ij\"\nH_ij = \"2 G_ij\"\n[boundary]\n",
             "recursive-definition",
             "is defined by itself, or by definitions that use it",
+        ),
+        (
+            "-P_k (u_k - ubar_k)",
+            "-Pbar_k (u_k - ubar_k)",
+            "lives-elsewhere",
+            "`Pbar` lives on S_s only, and has no values on S_u",
         ),
         (
             "D_ij s_ij - F_k",

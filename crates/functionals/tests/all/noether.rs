@@ -220,3 +220,114 @@ fn energy_is_the_current_of_time() {
         "{formulas:?}"
     );
 }
+
+/// A density of two fields in d dimensions, without boundary terms.
+fn two_fields(density: &str, d: u8) -> String {
+    format!(
+        r#"
+kind = "functional"
+name = "two"
+density = "{density}"
+symmetries = ["translations", "scaling"]
+[sizes]
+d = {d}
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[fields]
+u = "scalar"
+v = "scalar"
+w = "vector"
+[parameters]
+p = {{ description = "a degree" }}
+[boundary]
+S = "0"
+"#
+    )
+}
+
+#[test]
+fn the_exponents_of_several_fields_are_solved_for() {
+    // a + b = 2 − d for a product of gradients; 2(a − 1) = −d for a square; u v needs a + b = −d.
+    let wanted = [
+        (
+            "u,i v,i",
+            3,
+            "u with the exponent -1/2, v with the exponent -1/2,",
+        ),
+        (
+            "u,i v,i",
+            3,
+            "as well with any multiple of a change of u by -1, v by 1",
+        ),
+        (
+            "u,i v,i",
+            1,
+            "u with the exponent 1/2, v with the exponent 1/2,",
+        ),
+        (
+            "u,i v,i + u,i u,i",
+            3,
+            "u with the exponent -1/2, v with the exponent -1/2,",
+        ),
+        // 2a − 2 = −3 and a + 3b − 4 = −3: b = 1/2.
+        (
+            "u,i u,i + u,i v,i v,j v,j",
+            3,
+            "u with the exponent -1/2, v with the exponent 1/2,",
+        ),
+        // a = −3/2 from u², then a + b − 1 = −3.
+        (
+            "u^2 + u w_i,i + v,i v,i",
+            3,
+            "u with the exponent -3/2, v with the exponent -1/2, w with the exponent -1/2)",
+        ),
+        // The degree is a parameter: 2p (a − 1) = −3.
+        ("(u,i u,i)^p + v^2 + w_i w_i", 3, "u with the exponent "),
+        // Only different exponents of the components: 1/2 and 3/4 in one dimension do not exist for a vector in the plane otherwise.
+        (
+            "w_1,1^2 + w_2,2^4 + u^2 + v^2",
+            2,
+            "w_1 with the exponent 0, w_2 with the exponent 1/2",
+        ),
+    ];
+    for (density, d, words) in wanted {
+        let (word, detail, _) = verdict(&two_fields(density, d), "scaling");
+        assert_eq!(word, "proved", "{density}: {detail}");
+        assert!(detail.contains(words), "{density}: {detail}");
+    }
+}
+
+#[test]
+fn where_no_exponents_exist_the_scaling_is_refuted() {
+    for density in [
+        "u,i v,i + u^2 v^2 + u v",
+        "u,i u,i + v,i v,i + u v + u^3",
+        "u,i v,i + x_1 u,i v,i",
+    ] {
+        let (word, detail, formulas) = verdict(&two_fields(density, 3), "scaling");
+        assert_eq!(word, "refuted", "{density}: {detail}");
+        assert!(
+            detail.contains("there are no exponents for which the defect vanishes"),
+            "{detail}"
+        );
+        assert!(
+            formulas.iter().any(|f| f.contains("defect")),
+            "{formulas:?}"
+        );
+    }
+}
+
+#[test]
+fn a_defect_that_is_a_divergence_leaves_a_current() {
+    // ½ u'² + x u' = ½ u'² − u + (x u)': of the translation u' is left, a divergence; with v explicit it is none.
+    for (density, word) in [
+        ("1/2 u,1^2 + x_1 u,1", "proved"),
+        ("1/2 u,1^2 + x_1^2 u", "refuted"),
+        ("1/2 u,1^2 + x_1 u,1 v + 1/2 v^2", "refuted"),
+        ("1/2 u,1^2 + x_1 (u v,1 + v u,1)", "proved"),
+    ] {
+        let (own, detail, _) = verdict(&two_fields(density, 1), "translation-x_1");
+        assert_eq!(own, word, "{density}: {detail}");
+    }
+}

@@ -264,7 +264,10 @@ fn on_a_box(row: &str, case: &Case) -> Functional {
     } else {
         "intervals = { x_1 = [0, 1] }"
     };
-    text.push_str(&format!("\n[domain]\n{others}\n"));
+    // The tractions are given on several faces.
+    text.push_str(&format!(
+        "\n[domain]\n{others}\n[data]\nPbar = \"vector\"\n"
+    ));
     let density = |name: &str| {
         let line = text
             .lines()

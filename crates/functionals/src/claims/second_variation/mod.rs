@@ -1,0 +1,430 @@
+//! `functional.second-variation`: Legendre's and Jacobi's conditions in one dimension.
+
+mod constant;
+mod form;
+mod jacobi;
+mod trial;
+
+use super::{Claim, Context, Finding, Formula};
+use crate::functional::{Functional, Solution};
+use crate::signs::{enclosure, on_interval, Sign};
+use crate::space::{Component, Space};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Rational, Verdict};
+use form::Form;
+use jacobi::Shown;
+use std::cmp::Ordering;
+
+/// `functional.second-variation#SOLUTION`.
+pub(super) struct SecondVariation;
+
+impl Claim for SecondVariation {
+    fn id(&self) -> &'static str {
+        "functional.second-variation"
+    }
+
+    fn title(&self) -> &'static str {
+        "The second variation at the stated solution is positive for all admitted variations that do not vanish"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "For fields u(x) and a density L(x, u, u') with densities at the ends the second variation at a solution is \
+         ½ ∫ (v'ᵀ P v' + 2 v'ᵀ Q v + vᵀ R v) dx and vᵀ B v at the ends, with P, Q, R, B the second derivatives (I. M. Gelfand, S. V. Fomin, \
+         Calculus of Variations, 1963, ch. 5). Where a field is given at an end, v vanishes there. Legendre's condition is that P is \
+         positive: its sign on the whole interval is decided exactly for polynomials (Sturm), by enclosures for others. Jacobi's is that the \
+         determinant of a conjoined basis of Jacobi's equations has no zero, a conjugate point, up to the right end; a free end \
+         enters with its natural condition. It is proved where the integrand is positive, and for one field by a polynomial that is \
+         positive and lies above Jacobi's equation. It is refuted by a polynomial v, computed exactly, or by a place where P is not positive. \
+         A conjugate point exactly at the right end makes the second variation zero for Jacobi's field: that is the condition \
+         stated. Else the determinant is followed numerically."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        if cx.functional().space.coordinates.len() != 1 {
+            return Vec::new();
+        }
+        let all = cx.problem.solutions.iter();
+        all.map(|solution| Some(solution.name.clone())).collect()
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let mut all = cx.problem.solutions.iter();
+        let own = all.find(|solution| Some(solution.name.as_str()) == subject);
+        match own {
+            Some(own) => decided(cx.functional(), own),
+            None => Verdict::undecided("there is no such solution").into(),
+        }
+    }
+}
+
+fn decided(functional: &Functional, solution: &Solution) -> Finding {
+    match Form::of(functional, solution) {
+        Err(verdict) => (*verdict).into(),
+        Ok(form) => Finding {
+            verdict: verdict(&form),
+            formulas: formulas(&form),
+        },
+    }
+}
+
+/// Whether a number is proved not to be negative.
+fn is_not_negative(space: &Space, e: Expr) -> bool {
+    let is_positive = || enclosure(space, e).and_then(|own| own.sign()) == Some(Ordering::Greater);
+    is_positive() || space.graph.is_zero(e) || space.vanish(&[e])
+}
+
+/// The places between which the form is looked at.
+struct Places {
+    /// Rational places at or outside the ends.
+    outer: [Rational; 2],
+    /// Rational places at or inside them.
+    inner: [Rational; 2],
+    /// Whether these are the ends.
+    are_ends: [bool; 2],
+}
+
+impl Places {
+    fn of(form: &Form<'_>) -> Option<Places> {
+        let (lower, upper) = (form.interval.lower, form.interval.upper);
+        let [below, above] = around(form, lower)?;
+        let [under, over] = around(form, upper)?;
+        (above < under).then(|| Places {
+            are_ends: [below == above, under == over],
+            outer: [below, over],
+            inner: [above, under],
+        })
+    }
+
+    fn numbers(&self) -> (f64, f64) {
+        (
+            rational::to_f64(&self.outer[0]),
+            rational::to_f64(&self.outer[1]),
+        )
+    }
+}
+
+/// Rational numbers on both sides of a number, which are itself where it is rational.
+fn around(form: &Form<'_>, e: Expr) -> Option<[Rational; 2]> {
+    let space = &*form.functional.space;
+    if let Some(own) = space.graph.as_number(e) {
+        return Some([own.clone(), own.clone()]);
+    }
+    let own = enclosure(space, e)?;
+    let scale = 2_f64.powi(36);
+    let of = |x: f64| rational::ratio(x as i64, 1 << 36);
+    let (low, high) = (own.lower().to_f64() * scale, own.upper().to_f64() * scale);
+    (low.abs().max(high.abs()) < 9e15).then_some(())?;
+    Some([of(low.floor() - 1.0)?, of(high.ceil() + 1.0)?])
+}
+
+fn verdict(form: &Form<'_>) -> Verdict {
+    if let Some(proof) = by_signs(form) {
+        return Verdict::Proved(proof);
+    }
+    let Some(places) = Places::of(form) else {
+        return Verdict::undecided(
+            "the ends of the interval are no numbers: Jacobi's equation is printed, and not solved",
+        );
+    };
+    match legendre(form, &places) {
+        Legendre::Holds => {}
+        Legendre::Fails(verdict) | Legendre::Open(verdict) => return *verdict,
+    }
+    if let Some(proof) = by_integrand(form, &places) {
+        return Verdict::Proved(proof);
+    }
+    let shown = jacobi::shown(form, places.numbers());
+    if matches!(shown, Some(Shown::Positive)) {
+        if let Some(w) = jacobi::certificate(form, (&places.outer[0], &places.outer[1])) {
+            return proved_by(form, w);
+        }
+    }
+    if let Some(verdict) = by_trial(form, &places, shown) {
+        return verdict;
+    }
+    if let (Some(Shown::Degenerate), Some(field)) = (shown, constant::degenerate(form)) {
+        return degenerate(form, field);
+    }
+    by_numbers(shown, places.numbers())
+}
+
+const POSITIVE: &str = "all variations that are admitted and do not vanish";
+
+fn proved_by(form: &Form<'_>, w: Expr) -> Verdict {
+    let g = &form.functional.space.graph;
+    let size = chetaev_symbolic::simplify::length(g, w);
+    Verdict::Proved(Proof::exact(
+        POSITIVE,
+        format!("Legendre's P is positive, and a positive polynomial ({size} operations) lies above Jacobi's equation on the whole interval, so that no point is conjugate to the left end: the second variation is a sum of squares"),
+    ))
+}
+
+/// Positive by the signs of its coefficients, whatever the interval.
+fn by_signs(form: &Form<'_>) -> Option<Proof> {
+    let g = &form.functional.space.graph;
+    if form.count() != 1 {
+        return None;
+    }
+    let rest = g.sub(form.r[0][0], form.functional.space.total(form.q[0][0], 0));
+    let sign = |e: Expr| known_sign(g, e, &Assumptions::new());
+    let is_held = form.ends.iter().all(|end| end.fixed[0]);
+    let is_rest = g.is_zero(rest) || sign(rest).is_nonnegative();
+    (is_held && sign(form.p[0][0]).is_positive() && is_rest).then(|| {
+        Proof::exact(
+            POSITIVE,
+            "Legendre's P is positive and R − Q' is not negative, so that the second variation is a sum of squares",
+        )
+    })
+}
+
+enum Legendre {
+    Holds,
+    Fails(Box<Verdict>),
+    Open(Box<Verdict>),
+}
+
+/// Whether P is positive definite on the whole interval: by its leading minors. A negative principal minor at a place refutes.
+fn legendre(form: &Form<'_>, places: &Places) -> Legendre {
+    let space = &*form.functional.space;
+    let outer = (&places.outer[0], &places.outer[1]);
+    let inner = (&places.inner[0], &places.inner[1]);
+    let mut is_positive = true;
+    for chosen in subsets(form.count()) {
+        let minor = minor(form, &form.p, &chosen);
+        let is_leading = chosen.iter().enumerate().all(|(k, &own)| k == own);
+        match on_interval(space, minor, if is_leading { outer } else { inner }) {
+            Sign::Negative(x) if x > places.inner[0] && x < places.inner[1] => {
+                return Legendre::Fails(Box::new(no_minimum(form, &x, minor)))
+            }
+            Sign::Positive => {}
+            _ if is_leading => is_positive = false,
+            _ => {}
+        }
+    }
+    if is_positive {
+        return Legendre::Holds;
+    }
+    Legendre::Open(Box::new(by_trial(form, places, None).unwrap_or_else(|| {
+        if let Some(proof) = by_integrand(form, places) {
+            return Verdict::Proved(proof);
+        }
+        Verdict::undecided("Legendre's P is not proved to be positive on the whole interval: it has zeros there, where Jacobi's equation is singular, or its sign was not found")
+    })))
+}
+
+fn no_minimum(form: &Form<'_>, x: &Rational, minor: Expr) -> Verdict {
+    let space = &*form.functional.space;
+    let g = &space.graph;
+    let variable = space.coordinates.first().map(|c| c.expr);
+    let value = variable.map_or(minor, |own| {
+        g.substitute(minor, &[(own, g.number(x.clone()))])
+    });
+    let bounds = enclosure(space, value).map_or_else(
+        || ("-0".to_owned(), "-0".to_owned()),
+        |own| {
+            let text = |v: f64| format!("{v:.9e}");
+            (text(own.lower().to_f64()), text(own.upper().to_f64()))
+        },
+    );
+    Verdict::Refuted(Counterexample {
+        point: vec![PointValue {
+            name: "x".into(),
+            exact: Some(x.clone()),
+            enclosure: None,
+        }],
+        quantity: "a principal minor of Legendre's P".into(),
+        residual: bounds,
+        detail: format!(
+            "Legendre's condition fails: at x = {x} P is not positive, so that the second variation is negative for variations that oscillate fast there"
+        ),
+    })
+}
+
+/// All subsets of 0, …, n − 1 but the empty one.
+fn subsets(n: usize) -> Vec<Vec<usize>> {
+    let all = 1..1usize << n.min(6);
+    all.map(|bits| (0..n).filter(|k| bits >> k & 1 == 1).collect())
+        .collect()
+}
+
+fn minor(form: &Form<'_>, matrix: &[Vec<Expr>], chosen: &[usize]) -> Expr {
+    let g = &form.functional.space.graph;
+    let row = |&a: &usize| chosen.iter().map(|&b| matrix[a][b]).collect();
+    let rows: Vec<Vec<Expr>> = chosen.iter().map(row).collect();
+    determinant(g, &rows)
+}
+
+/// Positive because the integrand is, and what stands at free ends.
+fn by_integrand(form: &Form<'_>, places: &Places) -> Option<Proof> {
+    let space = &*form.functional.space;
+    let g = &space.graph;
+    let n = form.count();
+    let outer = (&places.outer[0], &places.outer[1]);
+    let detail = "the integrand of the second variation is positive, and nothing negative stands at the ends";
+    if n == 1 {
+        // 2 Q v v' is (Q v²)' − Q' v².
+        let rest = on_interval(
+            space,
+            g.sub(form.r[0][0], space.total(form.q[0][0], 0)),
+            outer,
+        );
+        let leading = on_interval(space, form.p[0][0], outer);
+        let x = space.coordinates.first()?.expr;
+        let at = |e: Expr, place: Expr| g.substitute(e, &[(x, place)]);
+        let (q, ends) = (form.q[0][0], &form.ends);
+        let left = g.sub(ends[0].b[0][0], at(q, form.interval.lower));
+        let right = g.add(&[ends[1].b[0][0], at(q, form.interval.upper)]);
+        let is_fine = |k: usize, e: Expr| ends[k].fixed[0] || is_not_negative(space, e);
+        let is_held = ends.iter().any(|end| end.fixed[0])
+            || enclosure(space, left).and_then(|own| own.sign()) == Some(Ordering::Greater)
+            || enclosure(space, right).and_then(|own| own.sign()) == Some(Ordering::Greater);
+        let is_strict = match rest {
+            Sign::Positive | Sign::Nonnegative => true,
+            Sign::Zero => is_held && matches!(leading, Sign::Positive | Sign::Nonnegative),
+            _ => false,
+        };
+        let is_positive =
+            leading.is_nonnegative() && is_strict && is_fine(0, left) && is_fine(1, right);
+        return is_positive.then(|| Proof::exact(POSITIVE, detail));
+    }
+    let is_free = |end: &form::End| !end.fixed.iter().all(|fixed| *fixed);
+    let has_ends = form
+        .ends
+        .iter()
+        .any(|end| is_free(end) && !end.b.iter().flatten().all(|&e| g.is_zero(e)));
+    if has_ends {
+        return None;
+    }
+    let is_plain = form
+        .q
+        .iter()
+        .chain(&form.r)
+        .flatten()
+        .all(|&e| g.is_zero(e));
+    if is_plain {
+        let is_held = (0..n).all(|k| form.ends.iter().any(|end| end.fixed[k]));
+        let is_leading = (1..=n).all(|count| {
+            let chosen: Vec<usize> = (0..count).collect();
+            on_interval(space, minor(form, &form.p, &chosen), outer) == Sign::Positive
+        });
+        return (is_held && is_leading).then(|| Proof::exact(POSITIVE, detail));
+    }
+    // The matrix [[P, Q], [Qᵀ, R]].
+    let entry = |a: usize, b: usize| match (a < n, b < n) {
+        (true, true) => form.p[a][b],
+        (true, false) => form.q[a][b - n],
+        (false, true) => form.q[b][a - n],
+        (false, false) => form.r[a - n][b - n],
+    };
+    let is_positive = (1..=2 * n).all(|count| {
+        let row = |a: usize| (0..count).map(|b| entry(a, b)).collect();
+        let rows: Vec<Vec<Expr>> = (0..count).map(row).collect();
+        on_interval(space, determinant(g, &rows), outer) == Sign::Positive
+    });
+    is_positive.then(|| Proof::exact(POSITIVE, detail))
+}
+
+/// A polynomial with a negative second variation.
+fn by_trial(form: &Form<'_>, places: &Places, shown: Option<Shown>) -> Option<Verdict> {
+    let free = |k: usize| !form.ends[k].fixed.iter().all(|fixed| *fixed);
+    // Where a free end is no rational number, polynomials that vanish before it are tried.
+    let are_ends = [
+        places.are_ends[0] || !free(0),
+        places.are_ends[1] || !free(1),
+    ];
+    let value = trial::negative(form, &places.inner, are_ends)?;
+    let decimal = format!("{:.9}", rational::to_f64(&value));
+    let why = match shown {
+        Some(Shown::Conjugate(x)) => {
+            format!("Jacobi's field vanishes at x = {x:.12}, inside the interval, and ")
+        }
+        _ => String::new(),
+    };
+    Some(Verdict::Refuted(Counterexample {
+        point: Vec::new(),
+        quantity: "the second variation".into(),
+        residual: (decimal.clone(), decimal.clone()),
+        detail: format!("{why}for polynomials v that are admitted the second variation is {decimal}, by exact integration"),
+    }))
+}
+
+fn degenerate(form: &Form<'_>, field: Expr) -> Verdict {
+    let text = form.functional.space.graph.text(field);
+    Verdict::Conditional {
+        condition: format!("v is no multiple of {text}"),
+        proof: Proof::exact(
+            "variations that are no multiples of Jacobi's field",
+            format!("the second variation is nowhere negative, and zero for the multiples of Jacobi's field v = {text}, whose condition holds exactly at the right end: whether the solution is a minimum is not decided by it"),
+        ),
+        counterexample: None,
+    }
+}
+
+fn by_numbers(shown: Option<Shown>, (lower, upper): (f64, f64)) -> Verdict {
+    match shown {
+        None => Verdict::undecided("Jacobi's equations have no numbers as coefficients, or could not be integrated: they are printed"),
+        Some(Shown::Positive) => Verdict::Numerical(Evidence {
+            samples: 1,
+            region: format!("a conjoined basis from x = {lower} to x = {upper}"),
+            digits: 12,
+            residual: 0.0,
+            seed: None,
+            why_no_proof: "Legendre's P is positive, and the determinant of a conjoined basis, integrated numerically, has no zero up to the right end; no function was found that proves it".into(),
+        }),
+        Some(Shown::Conjugate(x)) => Verdict::undecided(format!(
+            "the determinant of a conjoined basis vanishes at x = {x:.10}, and no polynomial of low degree makes the second variation negative"
+        )),
+        Some(Shown::NegativeAtEnd) => Verdict::undecided(
+            "at the free end the condition fails numerically, and no polynomial of low degree makes the second variation negative",
+        ),
+        Some(Shown::Degenerate) => Verdict::undecided(
+            "a conjugate point lies at the right end as far as numbers tell, and Jacobi's field has no closed form here: whether it lies there exactly is not decided",
+        ),
+    }
+}
+
+fn formulas(form: &Form<'_>) -> Vec<Formula> {
+    let space = &*form.functional.space;
+    let g = &space.graph;
+    let mut found = Vec::new();
+    let names: Vec<String> = form
+        .components
+        .iter()
+        .map(|&c| space.component_at(c).name)
+        .collect();
+    let variations: Vec<usize> = names
+        .iter()
+        .map(|name| {
+            space.component(Component {
+                name: format!("δ{name}"),
+                tensor: "δ".into(),
+                multiplicity: 1,
+                is_varied: false,
+                is_of_boundary: false,
+            })
+        })
+        .collect();
+    let all: Vec<usize> = (0..form.count()).collect();
+    let caption = "Legendre: what has to be positive";
+    found.push(Formula::new(caption, minor(form, &form.p, &all)));
+    for (a, name) in names.iter().enumerate() {
+        let (mut momentum, mut rest) = (Vec::new(), Vec::new());
+        for (b, &v) in variations.iter().enumerate() {
+            let (value, slope) = (space.jet(v, &[]), space.jet(v, &[0]));
+            momentum.push(g.mul(&[form.p[a][b], slope]));
+            momentum.push(g.mul(&[form.q[a][b], value]));
+            rest.push(g.mul(&[form.r[a][b], value]));
+            rest.push(g.mul(&[form.q[b][a], slope]));
+        }
+        let jacobi = g.sub(space.total(g.add(&momentum), 0), g.add(&rest));
+        let caption = match form.count() {
+            1 => "Jacobi's equation, left side minus right side".to_owned(),
+            _ => format!("Jacobi's equation of {name}, left side minus right side"),
+        };
+        found.push(Formula::new(caption, jacobi));
+    }
+    found
+}

@@ -1,0 +1,120 @@
+//! Roots and absolute values: what is true for one sign of what is under them is not called true.
+
+use crate::table::studied_text;
+use chetaev_symbolic::Verdict;
+
+/// ∫ density over a line, with equations that are stated to follow; all are yielded.
+fn verdict(density: &str, equations: &[&str]) -> Verdict {
+    let labels: Vec<String> = (0..equations.len()).map(|k| format!("\"e{k}\"")).collect();
+    let stated: Vec<String> = equations
+        .iter()
+        .enumerate()
+        .map(|(k, e)| format!("e{k} = \"{e}\""))
+        .collect();
+    let text = format!(
+        r#"
+kind = "functional"
+name = "branch"
+density = "{density}"
+yields = [{}]
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 2] }}
+[fields]
+u = "scalar"
+v = "scalar"
+[boundary]
+"x = 0" = {{ fixed = ["u", "v"] }}
+"x = 2" = {{ fixed = ["u", "v"] }}
+[equations]
+{}
+"#,
+        labels.join(", "),
+        stated.join("\n")
+    );
+    let study = studied_text("p4p", &text, &[]);
+    study.verdicts[0].finding.verdict.clone()
+}
+
+const STRING: &str = "1/2 u,x^2 + 1/2 v^2";
+
+#[test]
+fn what_holds_on_one_side_only_is_conditional() {
+    // (the equation, where it says u'' = 0, whether it says so nowhere else)
+    let cases = [
+        ("sqrt(u,xx^2) = u,xx", "u,xx <= 0"),
+        ("abs(u,xx) = u,xx", "u,xx <= 0"),
+        ("u,xx + sqrt(4 u,xx^2)/2 = 0", "u,xx >= 0"),
+        ("(u,xx^2)^(3/2) = u,xx^3", "u,xx <= 0"),
+        ("abs(u,xx) = -u,xx", "u,xx >= 0"),
+    ];
+    for (equation, condition) in cases {
+        match verdict(STRING, &[equation, "v = 0"]) {
+            Verdict::Conditional {
+                condition: own,
+                counterexample,
+                ..
+            } => {
+                assert_eq!(own, condition, "{equation}");
+                assert!(counterexample.is_some());
+            }
+            other => panic!("{equation}: {} {}", other.word(), other.detail()),
+        }
+    }
+}
+
+#[test]
+fn what_holds_on_both_sides_is_proved() {
+    let cases: [(&str, &[&str]); 8] = [
+        (STRING, &["u,xx = 2 sqrt(u,xx^2)", "v = 0"]),
+        (STRING, &["u,xx^2 = 0", "v^3 = 0"]),
+        (STRING, &["u,xx^2 + 3 v^2 = 0"]),
+        (STRING, &["sqrt(u,xx) = 0", "v = 0"]),
+        (STRING, &["u,xx (u,xx^2 + 1) = 0", "v = 0"]),
+        ("abs(u)^3 + 1/2 v^2", &["u abs(u) = 0", "v = 0"]),
+        (
+            "1/3 (u,x^2)^(3/2) + 1/2 v^2",
+            &["abs(u,x) u,xx = 0", "v = 0"],
+        ),
+        // A factor without fields, of both signs.
+        (
+            STRING,
+            &[
+                "(x - 3) sin(u,xx) = 0 + (x - 3) sin(u,xx)",
+                "u,xx = 0",
+                "v = 0",
+            ],
+        ),
+    ];
+    for (density, equations) in cases {
+        let own = verdict(density, equations);
+        assert_eq!(own.word(), "proved", "{equations:?}: {}", own.detail());
+    }
+}
+
+#[test]
+fn where_a_root_has_no_slope_it_is_said() {
+    match verdict("sqrt(u,x^2) + 1/2 v^2", &["v = 0"]) {
+        Verdict::Proved(proof) => assert!(proof.on.contains("u,x^2 > 0"), "{}", proof.on),
+        other => panic!("{} {}", other.word(), other.detail()),
+    }
+}
+
+#[test]
+fn a_product_vanishes_with_any_of_its_factors() {
+    for equations in [
+        ["(u,xx - 1) u,xx = 0", "v = 0"],
+        ["u,xx^2 - u,xx = 0", "v = 0"],
+        ["(u,xx - u) (u,xx + v) = 0", "v = 0"],
+        ["u,xx^3 = u,xx", "v = 0"],
+    ] {
+        let own = verdict(STRING, &equations);
+        assert_eq!(own.word(), "refuted", "{equations:?}: {}", own.detail());
+    }
+}
+
+#[test]
+fn equations_that_nothing_satisfies_prove_nothing() {
+    assert_eq!(verdict("u + v", &["1 = 2"]).word(), "not-applicable");
+    assert_eq!(verdict("u + v^2", &["v = 0"]).word(), "refuted");
+}

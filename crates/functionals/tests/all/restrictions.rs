@@ -1,0 +1,205 @@
+//! What is imposed without a multiplier restricts the variations: expected equations by Lagrange's multipliers or by putting in, on paper.
+
+use crate::table::studied_text;
+use chetaev_functionals::Study;
+
+/// Two fields on a line; `ends` says what stands at both ends.
+fn studied(density: &str, stated: &[&str], imposed: &[(&str, &str)], ends: [&str; 2]) -> Study {
+    let mut labels = (Vec::new(), Vec::new());
+    let mut equations = String::new();
+    for (k, equation) in stated.iter().enumerate() {
+        labels.0.push(format!("\"a{k}\""));
+        equations.push_str(&format!("a{k} = \"{equation}\"\n"));
+    }
+    for (k, (equation, on)) in imposed.iter().enumerate() {
+        labels.1.push(format!("\"b{k}\""));
+        equations.push_str(&match *on {
+            "" => format!("b{k} = \"{equation}\"\n"),
+            on => format!("b{k} = {{ equation = \"{equation}\", on = \"{on}\" }}\n"),
+        });
+    }
+    let text = format!(
+        r#"
+kind = "functional"
+name = "restricted"
+density = "{density}"
+yields = [{}]
+imposed = [{}]
+symmetries = ["translations"]
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 2] }}
+[fields]
+u = "scalar"
+v = "scalar"
+[data]
+f = "scalar"
+[boundary]
+"x = 0" = {}
+"x = 2" = {}
+[equations]
+{equations}
+"#,
+        labels.0.join(", "),
+        labels.1.join(", "),
+        ends[0],
+        ends[1]
+    );
+    studied_text("p4p", &text, &[])
+}
+
+const HELD: &str = "{ fixed = [\"u\", \"v\"] }";
+
+#[test]
+fn a_field_that_is_imposed_is_put_in() {
+    let cases: [(&str, &str, &str, &str); 8] = [
+        // ½u'² + u² for v = u.
+        ("1/2 u,x^2 + u v", "v = u", "u,xx = 2 u", "proved"),
+        ("1/2 u,x^2 + u v", "v = u", "u = 0", "refuted"),
+        ("1/2 u,x^2 + u v", "2 u - 2 v = 0", "u,xx = 2 u", "proved"),
+        // A field that is given is not varied.
+        (
+            "1/2 u,x^2 + 1/2 v,x^2 - f u + u v",
+            "v = 3",
+            "u,xx + f = 3",
+            "proved",
+        ),
+        (
+            "1/2 u,x^2 + 1/2 v,x^2 - f u + u v",
+            "v = 3",
+            "u = 0",
+            "refuted",
+        ),
+        ("1/2 u,x^2 + 1/2 v,x^2 + u v", "v = f", "u,xx = f", "proved"),
+        // (u + v)'' / 2 for u − v = f.
+        (
+            "1/4 u,x^2 + 1/4 v,x^2",
+            "u - v = f",
+            "2 u,xx - f,xx = 0",
+            "proved",
+        ),
+        // No field can be solved for: the multiplier is not known.
+        ("1/2 u,x^2 + 1/2 v,x^2", "u,x = v", "u,xx = 0", "undecided"),
+    ];
+    for (density, imposed, stated, word) in cases {
+        let study = studied(density, &[stated], &[(imposed, "")], [HELD, HELD]);
+        let own = study
+            .verdicts
+            .iter()
+            .find(|d| d.claim == "functional.euler");
+        let verdict = &own.unwrap().finding.verdict;
+        assert_eq!(
+            verdict.word(),
+            word,
+            "{density}, {imposed}: {}",
+            verdict.detail()
+        );
+        if word == "undecided" {
+            assert!(
+                verdict.detail().contains("[multipliers]"),
+                "{}",
+                verdict.detail()
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_imposed_on_an_end_is_not_varied_there() {
+    // u = f at x = 0, and u' = 0 is natural at x = 2 only.
+    let ends = ["{ fixed = [\"v\"] }", HELD];
+    let study = studied(
+        "1/2 u,x^2 + 1/2 v^2",
+        &["u,xx = 0", "v = 0"],
+        &[("u = f", "x = 0")],
+        ends,
+    );
+    let own = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.euler");
+    let verdict = &own.unwrap().finding.verdict;
+    assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+}
+
+#[test]
+fn a_current_needs_the_multiplier_of_what_is_imposed() {
+    let study = studied(
+        "1/2 u,x^2 + 1/2 v,x^2",
+        &["u,xx = 0"],
+        &[("u,x = v", "")],
+        [HELD, HELD],
+    );
+    let own = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.noether");
+    assert_eq!(own.unwrap().finding.verdict.word(), "undecided");
+}
+
+/// The verdict on a stated solution.
+fn solution(text: &str) -> (String, String) {
+    let study = studied_text("p4p", text, &[]);
+    let own = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.solution");
+    let verdict = &own.unwrap().finding.verdict;
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+#[test]
+fn conditions_on_a_piece_whose_place_is_not_stated_are_not_taken_for_true() {
+    let text = r#"
+kind = "functional"
+name = "curved"
+density = "1/2 u,i u,i"
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[fields]
+u = "scalar"
+[boundary]
+S = "0"
+[solutions.tilted]
+fields = { u = "x_1" }
+"#;
+    let (word, detail) = solution(text);
+    assert_eq!(word, "undecided", "{detail}");
+    assert!(detail.contains("where S lies is not stated"), "{detail}");
+}
+
+#[test]
+fn a_force_at_the_corners_of_a_plate_is_a_condition() {
+    // Twisted by w = x y, a free plate bears forces 2 (1 − ν) at its corners (Kirchhoff 1850); edges and interior are free.
+    let plate = |field: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "plate"
+density = "1/2 (u,xx + u,yy)^2 + (1 - nu) (u,xy^2 - u,xx u,yy)"
+[domain]
+coordinates = ["x", "y"]
+intervals = {{ x = [0, 1], y = [0, 1] }}
+[fields]
+u = "scalar"
+[parameters]
+nu = "1/3"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+"y = 0" = "0"
+"y = 1" = "0"
+[solutions.own]
+fields = {{ u = "{field}" }}
+"#
+        )
+    };
+    let (word, detail) = solution(&plate("x y"));
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("meet"), "{detail}");
+    let (word, detail) = solution(&plate("2 x - y + 3"));
+    assert_eq!(word, "proved", "{detail}");
+}
