@@ -83,8 +83,8 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
     }
     let mut notes = Vec::new();
     // Both functionals are of fields that both admit.
-    let mut imposed = equations(functional, None, &[Role::Imposed]);
-    imposed.extend(equations(other, None, &[Role::Imposed]));
+    let own = equations(functional, None, &[Role::Imposed]);
+    let imposed = together(own, equations(other, None, &[Role::Imposed]));
     let mut all = match vanishing(functional, &[g.add(&terms)], &imposed) {
         Ok((proof, needed)) => {
             if !needed.is_empty() {
@@ -170,19 +170,27 @@ fn on_piece(
     piece: &str,
     sum: Expr,
 ) -> Result<(Proof, Option<String>), Box<Verdict>> {
-    let mut inside = equations(functional, None, STATED);
-    inside.extend(equations(functional, Some(piece), &[Role::Imposed]));
-    inside.extend(equations(other, Some(piece), &[Role::Imposed]));
+    let inside = equations(functional, None, STATED);
+    let own = equations(functional, Some(piece), &[Role::Imposed]);
+    let of_dual = equations(other, Some(piece), &[Role::Imposed]);
+    let inside = together(together(inside, own), of_dual);
     match vanishing(functional, &[sum], &inside) {
         Ok((proof, needed)) if needed.is_empty() => Ok((proof, None)),
         Ok((proof, needed)) => Ok((proof, Some(format!("modulo {}", labels(&needed))))),
         Err(_) => {
-            let mut all = equations(functional, Some(piece), STATED);
-            let of_dual = equations(other, Some(piece), STATED);
-            let is_new = |group: &Group| all.iter().all(|own| own.label != group.label);
-            let new: Vec<Group> = of_dual.into_iter().filter(is_new).collect();
-            all.extend(new);
+            let own = equations(functional, Some(piece), STATED);
+            let all = together(own, equations(other, Some(piece), STATED));
             vanishing_difference(functional, sum, &[], &all)
         }
     }
+}
+
+/// Both, what has the same label once.
+fn together(mut one: Vec<Group>, other: Vec<Group>) -> Vec<Group> {
+    for group in other {
+        if one.iter().all(|own| own.label != group.label) {
+            one.push(group);
+        }
+    }
+    one
 }
