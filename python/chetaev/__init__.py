@@ -23,6 +23,7 @@ from .errors import (
     OptionError,
 )
 from .functional import Functional
+from .sweeps import Sweep, ensemble
 from .system import System
 
 __all__ = [
@@ -33,8 +34,10 @@ __all__ = [
     "ModelWarning",
     "NotDerivedError",
     "OptionError",
+    "Sweep",
     "System",
     "__version__",
+    "ensemble",
     "errors",
     "explain",
     "gallery",

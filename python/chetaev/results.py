@@ -205,6 +205,14 @@ class Comparison(Result):
     """Two forms of the equations held against each other: what differs, and why it vanishes."""
 
 
+class Steady(Result):
+    """All steady motions: ``motions`` with their values, exact and enclosed; families have free variables and equations."""
+
+    @property
+    def motions(self) -> list[dict[str, Any]]:
+        return list(self.to_dict()["motions"])
+
+
 class Linearization(Result):
     """Linear equations ``E z' = F z`` about a steady motion, exact."""
 
@@ -399,6 +407,15 @@ class Trajectory(Result):
         import xarray as xr
 
         return xr.Dataset({name: ("t", self[name]) for name in self.names[1:]}, coords={"t": self.t})
+
+    def to_arrow(self) -> Any:
+        """A ``pyarrow.Table``."""
+        import pyarrow as pa
+
+        return pa.table({name: pa.array(self[name]) for name in self.names})
+
+    def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_csv(self) -> str:
         """The text of ``trajectory.csv``."""

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import chetaev_native as native
 from .errors import Interrupted, ModelWarning
-from .results import Check, Comparison, Derivation, Film, Linearization, Picture, Stability, Study, Trajectory
+from .results import Check, Comparison, Derivation, Film, Linearization, Picture, Stability, Steady, Study, Trajectory
 from .texts import exact, toml
 
 if TYPE_CHECKING:
     from .compiled import Compiled
+    from .exported import Exported
+    from .sweeps import Sweep
 
 #: A number, a text of the model notation, a fraction, or a SymPy expression.
 Value = Any
@@ -119,6 +121,18 @@ class System:
     def from_gallery(cls, name: str, *, set: Mapping[str, Value] | None = None) -> System:
         """A model that comes with Chetaev; ``chetaev.gallery.list()`` names them."""
         return cls.__new__(cls)._take(native.Model.from_texts(*of_gallery(name), _pairs(set)))
+
+    @classmethod
+    def from_urdf(cls, path: str | os.PathLike[str], *, set: Mapping[str, Value] | None = None) -> System:
+        """Reads the description of a robot, URDF or MJCF; what is not understood is a warning with its line.
+
+        ``text`` of the system is the model file that it became, to which contacts can be added.
+        """
+        with open(path, encoding="utf-8") as file:
+            text, notes = native.robot(file.read())
+        for line, message in notes:
+            warnings.warn(f"{os.fspath(path)}:{line}: {message}", ModelWarning, stacklevel=2)
+        return cls.from_text(text, set=set)
 
     @classmethod
     def from_sympy(
@@ -462,6 +476,102 @@ class System:
             outcome = self._native.principles(asked, compare, tell)
         return _finished(Study(outcome, outcome.story()), outcome, out)
 
+    def sweep(
+        self,
+        *,
+        vary: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        rows: Any = None,
+        zip: bool = False,
+        count: int | None = None,
+        seed: int = 0,
+        samples: int = 0,
+        threads: int | None = None,
+        stop_on_failure: bool = False,
+        out: str | os.PathLike[str] | None = None,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Sweep:
+        """Computes many motions: parameters and initial values over ranges, from rows of values, or at random.
+
+        Parameters
+        ----------
+        vary, initial : mapping from names to ranges, optional
+            Values of parameters, and of coordinates and velocities: ``"0:1:20"``, ``"1:4:log:10"``, ``"0:1:uniform"`` (with ``count``), a number, or
+            an array.
+        rows : path, mapping from names to arrays, or data frame, optional
+            One line of values for each trajectory.
+        zip : bool
+            Walks the ranges together instead of making their product.
+        count : int, optional
+            How many random values are drawn for ranges that are ``uniform``.
+        seed : int
+            What the random values follow from.
+        samples : int
+            Keeps so many states of each trajectory, at equal intervals with both ends.
+        threads : int, optional
+            As many as the machine runs at once when left out; the results do not depend on them.
+        stop_on_failure : bool
+            Ends at the first trajectory that ends early or does not begin.
+        out : path, optional
+            A folder to write ``sweep.npz`` and ``failures.csv`` into.
+
+        Raises
+        ------
+        Interrupted
+            By Ctrl-C; its ``result`` has the trajectories that had ended.
+
+        Examples
+        --------
+        >>> sleigh = System.from_gallery("chaplygin-sleigh")
+        >>> found = sleigh.sweep(vary={"a": "0.1:0.5:5"}, initial={"phi": [0, 0.1]}, t_end=1)
+        >>> len(found)
+        10
+        """
+        from .sweeps import computed, ranges, table_text
+
+        asked = _asked(
+            t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        varied = {
+            "vary": ranges(vary), "initial": ranges(initial), "rows": table_text(rows), "zip": zip, "count": count, "seed": seed,
+            "samples": samples,
+        }
+        with _Progress(progress) as tell:
+            prepared = self._native.sweep(asked, varied, tell)
+            found, interrupted = computed(prepared, (0, prepared.count), threads, stop_on_failure, tell)
+        if out is not None:
+            found.save(out)
+        if interrupted:
+            raise Interrupted(found)
+        return found
+
+    def steady(self, *, symbolic: bool = False, progress: bool = False) -> Steady:
+        """Finds all steady motions: equilibria, and motions along which everything that matters is constant.
+
+        Parameters
+        ----------
+        symbolic : bool
+            For parameters in general position, instead of their values in the model.
+
+        Examples
+        --------
+        >>> [own["name"] for own in System.from_gallery("double-pendulum").steady().motions][:1]
+        ['1']
+        """
+        with _Progress(progress) as tell:
+            text, data = self._native.steady(symbolic, tell)
+        return Steady(json.loads(data), text)
+
     def linearize(
         self,
         *,
@@ -529,6 +639,31 @@ class System:
         from .compiled import Compiled
 
         return Compiled(self, values)
+
+    def to_jax(self, formulation: str | None = None) -> Exported:
+        """The equations of motion as a pure JAX function ``rhs(t, y, p)``, to be differentiated, mapped and compiled.
+
+        Parameters
+        ----------
+        formulation : str, optional
+            In the state of this formulation; the shortest of the usual ones when left out.
+        """
+        from .exported import jax_library
+
+        return self._exported(jax_library(), formulation)
+
+    def to_casadi(self, formulation: str | None = None) -> Exported:
+        """The equations of motion as an expression of CasADi, ``rhs(t, y, p)`` for symbols y and p: for optimal control."""
+        from .exported import casadi_library
+
+        return self._exported(casadi_library(), formulation)
+
+    def _exported(self, library: Any, formulation: str | None) -> Exported:
+        from .exported import Exported, names_of
+
+        names = ["reduced"] if formulation is None else [formulation]
+        source = self._native.derive(names, False, "python")[0]
+        return Exported(source, library, names_of(source))
 
 
 def _again(cls: type[System], path: str, text: str, includes: Any, overrides: Any) -> System:

@@ -24,7 +24,7 @@ NOT_METHODS = {
     "help": "help(System)",
 }
 #: Commands that are to become methods.
-NOT_YET = {"sweep", "steady", "follow"}
+NOT_YET = {"follow"}
 #: Options that are no keywords, and why.
 NOT_KEYWORDS = {
     "json": "to_dict()",

@@ -106,3 +106,19 @@ def test_the_package_is_imported_quickly() -> None:
     took = min(seconds("import chetaev") - seconds("pass") for _ in range(5))
     assert took < 0.15
     subprocess.run([sys.executable, "-c", "import chetaev, sys; assert 'numpy' not in sys.modules"], check=True)
+
+
+def test_robots_are_read(tmp_path: Path) -> None:
+    robot = tmp_path / "arm.urdf"
+    robot.write_text(
+        '<robot name="arm"><link name="ground"/><link name="upper"><inertial><mass value="2"/><origin xyz="0 0 -0.5"/>'
+        '<inertia ixx="0.2" iyy="0.2" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+        '<joint name="shoulder" type="revolute"><parent link="ground"/><child link="upper"/><axis xyz="0 1 0"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint><transmission name="drive"/></robot>'
+    )
+    with pytest.warns(chetaev.ModelWarning, match="transmission"):
+        arm = System.from_urdf(robot)
+    assert arm.coordinates == ["shoulder"]
+    robot.write_text("<robot")
+    with pytest.raises(chetaev.OptionError):
+        System.from_urdf(robot)

@@ -27,7 +27,7 @@ def test_mypy_finds_nothing() -> None:
 
 def test_stubs_have_what_the_native_part_has() -> None:
     stub = (Path(chetaev.__file__).parent / "chetaev_native.pyi").read_text()
-    for name in ("Model", "Outcome", "Linear", "Compiled", "Function"):
+    for name in ("Model", "Outcome", "Sweep", "Linear", "Compiled", "Function"):
         _, _, block = stub.partition(f"class {name}:")
         block = block.partition("\n@final")[0].partition("\ndef ")[0]
         own = [member for member in vars(getattr(chetaev_native, name)) if not member.startswith("__")]

@@ -14,7 +14,7 @@ and installs what the tests need by pip, once. Without Python 3.10 and pip nothi
 ";
 
 /// What the tests import.
-const NEEDED: [&str; 7] = [
+const NEEDED: [&str; 13] = [
     "numpy",
     "scipy",
     "sympy",
@@ -22,6 +22,12 @@ const NEEDED: [&str; 7] = [
     "hypothesis",
     "mypy",
     "tqdm",
+    "pandas",
+    "xarray",
+    "pyarrow",
+    "distributed",
+    "casadi",
+    "jax",
 ];
 
 /// What is built where nothing is built yet: the native part, and the command line that it is compared with.

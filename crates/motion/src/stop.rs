@@ -5,7 +5,7 @@ use crate::multiplier_flow::StateKind;
 use crate::numeric::NumericSystem;
 use crate::watch::Watched;
 use chetaev_integrate::{EvaluationFailure, HaltReason, Stop};
-use chetaev_mechanics::words::quoted;
+use chetaev_mechanics::words::{number, precise_number, quoted};
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,27 +56,29 @@ pub fn component_names(system: &NumericSystem, kind: StateKind, chart: &Chart) -
 
 /// The run met a point where a watched quantity vanishes.
 pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
+    let at = precise_number(t);
     let reason = match what {
         Watched::Gradient { row } => format!(
-            "the gradient of constraint `{}` by the velocities vanishes at t = {t:.9}: the rank of the constraints falls and the motion beyond is not determined",
+            "the gradient of constraint `{}` by the velocities vanishes at t = {at}: the rank of the constraints falls and the motion beyond is not determined",
             constraints[*row]
         ),
         Watched::Mass { name } => {
-            format!("the mass of `{name}` reaches zero at t = {t:.6}: there is nothing left to move")
+            let at = number(t);
+            format!("the mass of `{name}` reaches zero at t = {at}: there is nothing left to move")
         }
         Watched::Speed { particle } => format!(
-            "the velocity of `{particle}` vanishes at t = {t:.9}: the thrust against it has no direction there"
+            "the velocity of `{particle}` vanishes at t = {at}: the thrust against it has no direction there"
         ),
         Watched::Expression { text } => format!(
-            "{text} vanishes at t = {t:.9}: the equations are singular there{}",
+            "{text} vanishes at t = {at}: the equations are singular there{}",
             of_constraints(constraints)
         ),
         Watched::Regularity { matrix } => format!(
-            "{matrix}, becomes singular at t = {t:.9}: the equations do not determine the motion beyond{}",
+            "{matrix}, becomes singular at t = {at}: the equations do not determine the motion beyond{}",
             of_constraints(constraints)
         ),
         Watched::Structure { unknowns } => format!(
-            "the equations no longer determine {unknowns} at t = {t:.9}: the determinant of the system for them vanishes, so the structure changes and the motion beyond is not determined{}",
+            "the equations no longer determine {unknowns} at t = {at}: the determinant of the system for them vanishes, so the structure changes and the motion beyond is not determined{}",
             of_constraints(constraints)
         ),
     };
@@ -90,26 +92,29 @@ pub(crate) fn undetermined(reason: String, t: f64) -> Ending {
 
 /// Zeros of one function repeat at every one of many very short steps.
 pub(crate) fn crowd(what: &str, t: f64, count: u64) -> Ending {
+    let at = precise_number(t);
     early(
-        format!("{what} repeats without end near t = {t:.9}, in {count} very short steps in a row: the motion grazes its zero or chatters across it, since a force jumps or is undetermined there; end the run at it (`action = \"stop\"` at a threshold above zero), smooth the force, for example by tanh(v/eps), or go on with the equations that hold beyond"),
+        format!("{what} repeats without end near t = {at}, in {count} very short steps in a row: the motion grazes its zero or chatters across it, since a force jumps or is undetermined there; end the run at it (`action = \"stop\"` at a threshold above zero), smooth the force, for example by tanh(v/eps), or go on with the equations that hold beyond"),
         t,
     )
 }
 
 /// The motion sticks on the zero of a function under a sign.
 pub(crate) fn stuck(text: &str, t: f64) -> Ending {
+    let at = precise_number(t);
     early(
-        format!("the motion sticks at t = {t:.9}: {text} is zero there, and the force, which jumps with its sign, drives it back from both sides, so that no motion with either sign goes on; go on with {text} = 0 as a constraint, or smooth the jump, for example by tanh(v/eps)"),
+        format!("the motion sticks at t = {at}: {text} is zero there, and the force, which jumps with its sign, drives it back from both sides, so that no motion with either sign goes on; go on with {text} = 0 as a constraint, or smooth the jump, for example by tanh(v/eps)"),
         t,
     )
 }
 
 /// The run was to end at an event, and did.
 pub fn happened(name: &str, t: f64) -> Ending {
+    let at = precise_number(t);
     Ending {
         finished: true,
         interrupted: false,
-        reason: format!("the event `{name}` ended the run at t = {t:.9}"),
+        reason: format!("the event `{name}` ended the run at t = {at}"),
         t,
     }
 }
@@ -147,6 +152,15 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
     } else {
         String::new()
     };
+    let at = precise_number(match stop {
+        Stop::Divergence { singularity, .. } => *singularity,
+        Stop::Singular { t, .. }
+        | Stop::StepTooSmall { t, .. }
+        | Stop::NotFinite { t, .. }
+        | Stop::StepLimit { t, .. }
+        | Stop::Stiff { t, .. } => *t,
+        _ => f64::NAN,
+    });
     match stop {
         Stop::Finished => Ending {
             finished: true,
@@ -175,35 +189,35 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             reason: HaltReason::LeftConstraint { constraint },
         } => early(left(*constraint, *t, names), *t),
         Stop::Singular { t, failure } => early(
-            format!("singular state at t = {t:.9}: {}{rank}", singular(failure, names)),
+            format!("singular state at t = {at}: {}{rank}", singular(failure, names)),
             *t,
         ),
         Stop::Halted { t, reason } => early(halted(reason, *t, names), *t),
         Stop::Divergence { singularity, component: i, .. } => early(
             format!(
-                "singular state: the rate of {} grows without bound towards t = {singularity:.9}{rank}",
+                "singular state: the rate of {} grows without bound towards t = {at}{rank}",
                 component(*i)
             ),
             *singularity,
         ),
         Stop::StepTooSmall { t, component: i, .. } => early(
             format!(
-                "the tolerance cannot be met at t = {t:.9}: the step became too small, the largest error is that of {}; the state is close to a singular one{rank}, or a force jumps there (sign, abs): then smooth the jump, for example by tanh(v/eps)",
+                "the tolerance cannot be met at t = {at}: the step became too small, the largest error is that of {}; the state is close to a singular one{rank}, or a force jumps there (sign, abs): then smooth the jump, for example by tanh(v/eps)",
                 component(*i)
             ),
             *t,
         ),
         Stop::NotFinite { t, component: i } => early(
-            format!("singular state at t = {t:.9}: {} is not finite{rank}", component(*i)),
+            format!("singular state at t = {at}: {} is not finite{rank}", component(*i)),
             *t,
         ),
         Stop::StepLimit { t, limit } => early(
-            format!("the limit of {limit} steps was reached at t = {t:.9}; raise `max_steps` or the tolerance; where a force jumps (sign, abs) the steps chatter across the jump and more of them do not help: smooth the jump, for example by tanh(v/eps)"),
+            format!("the limit of {limit} steps was reached at t = {at}; raise `max_steps` or the tolerance; where a force jumps (sign, abs) the steps chatter across the jump and more of them do not help: smooth the jump, for example by tanh(v/eps)"),
             *t,
         ),
         Stop::Stiff { t, steps, steps_ahead } => early(
             format!(
-                "the problem is stiff: after {steps} steps the run stands at t = {t:.6}, and about {steps_ahead:.0} more would be needed by an explicit method; an implicit method is the right tool"
+                "the problem is stiff: after {steps} steps the run stands at t = {at}, and about {steps_ahead:.0} more would be needed by an explicit method; an implicit method is the right tool"
             ),
             *t,
         ),
@@ -239,22 +253,24 @@ fn singular(failure: &EvaluationFailure, names: &Names<'_>) -> String {
 }
 
 fn left(constraint: usize, t: f64, names: &Names<'_>) -> String {
+    let at = precise_number(t);
     format!(
-        "the motion left the constraint `{}` at t = {t:.9}: it has no continuation there, the two sides of the constraint jump apart (a branch of a root or of an angle ends, or a sign changes)",
+        "the motion left the constraint `{}` at t = {at}: it has no continuation there, the two sides of the constraint jump apart (a branch of a root or of an angle ends, or a sign changes)",
         names.constraints.get(constraint).cloned().unwrap_or_default()
     )
 }
 
 fn halted(reason: &HaltReason, t: f64, names: &Names<'_>) -> String {
+    let at = precise_number(t);
     let name = |i: usize| names.constraints.get(i).cloned().unwrap_or_default();
     match reason {
         HaltReason::RankDrop { from, to, constraint } => format!(
-            "the constraint rank falls from {from} to {to} at t = {t:.9}: the gradient of `{}` vanishes or becomes dependent",
+            "the constraint rank falls from {from} to {to} at t = {at}: the gradient of `{}` vanishes or becomes dependent",
             name(*constraint)
         ),
         HaltReason::Contradiction { constraint } => {
-            format!("constraint `{}` contradicts the others at t = {t:.9}", name(*constraint))
+            format!("constraint `{}` contradicts the others at t = {at}", name(*constraint))
         }
-        _ => format!("the run was halted at t = {t:.9} by a condition of the program that runs it"),
+        _ => format!("the run was halted at t = {at} by a condition of the program that runs it"),
     }
 }

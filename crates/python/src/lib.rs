@@ -2,7 +2,7 @@
 //!
 //! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
 //!
-//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function; `functional`: a functional over space;
+//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function; `sweep`: many trajectories; `functional`: a functional over space;
 //! - `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
 
 mod compiled;
@@ -11,6 +11,7 @@ mod linear;
 mod model;
 mod outcome;
 mod problem;
+mod sweep;
 mod texts;
 mod waiting;
 
@@ -26,9 +27,11 @@ mod chetaev_native {
     #[pymodule_export]
     use crate::linear::Linear;
     #[pymodule_export]
-    use crate::model::{explain, gallery, verify, Model};
+    use crate::model::{explain, gallery, robot, verify, Model};
     #[pymodule_export]
     use crate::outcome::Outcome;
+    #[pymodule_export]
+    use crate::sweep::Sweep;
 
     /// The version of the package.
     #[pymodule_export]

@@ -3,12 +3,15 @@
 use crate::compiled::Compiled;
 use crate::linear::Linear;
 use crate::outcome::Outcome;
+use crate::sweep::{Sweep, Varied};
 use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
 use chetaev::model::model::{ModelText, Precision};
 use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
+use chetaev::study::steady::steady;
+use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
 use chetaev::study::{
     beside, check, diagnostics, explanation, interruptible, registry, stability, study,
@@ -127,6 +130,15 @@ impl Model {
             }
         };
         asked.kappa.iter().map(value).collect()
+    }
+
+    fn not_steady(&self, py: Python<'_>, problem: &stability::StabilityError) -> PyErr {
+        match problem {
+            stability::StabilityError::System(problem) => {
+                problem::of_system(py, problem, self.place())
+            }
+            problem => problem::of_option(py, problem),
+        }
     }
 
     fn studied(
@@ -420,6 +432,54 @@ impl Model {
         self.studied(py, options, tell)
     }
 
+    /// Many trajectories, ready to be computed: `sweep`.
+    #[pyo3(signature = (asked, varied, tell=None))]
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        asked: &Bound<'_, PyAny>,
+        varied: &Bound<'_, PyAny>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Sweep> {
+        let varied: Varied = varied.extract()?;
+        let options = SweepOptions {
+            study: self.options(py, &asked.extract()?)?,
+            samples: varied.samples,
+        };
+        let variations = varied.variations(&self.model);
+        let variations = variations.map_err(|problem| problem.raised(py))?;
+        let found = waiting::done(py, tell, |hooks| {
+            let made = interruptible(hooks, |hooks| {
+                chetaev::study::sweep::Sweep::new(&self.model, variations, options, hooks)
+            });
+            made.unwrap_or(Err(StudyError::Interrupted))
+        })?;
+        let made = found.result;
+        made.map(Sweep::new)
+            .map_err(|problem| problem::of_study(py, &problem, self.place()))
+    }
+
+    /// All steady motions in words and as JSON: `steady`.
+    #[pyo3(signature = (symbolic, tell=None))]
+    fn steady(
+        &self,
+        py: Python<'_>,
+        symbolic: bool,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String)> {
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("steady motions", None);
+                steady(&self.model, symbolic).map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
+            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+        }
+    }
+
     /// Linear equations about a steady motion and their stability: `linearize` and `stability`.
     #[pyo3(signature = (wanted, tell=None))]
     fn stability(
@@ -449,12 +509,7 @@ impl Model {
         match found.result {
             Err(_) => Err(PyKeyboardInterrupt::new_err(())),
             Ok(Ok(found)) => Ok(Linear::new(found)),
-            Ok(Err(problem)) => Err(match *problem {
-                stability::StabilityError::System(problem) => {
-                    problem::of_system(py, &problem, self.place())
-                }
-                problem => problem::of_option(py, &problem),
-            }),
+            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
         }
     }
 
@@ -503,6 +558,15 @@ pub(crate) fn verify(
     let lines = found.result.map_err(wrong)?;
     let data: Vec<serde_json::Value> = lines.iter().map(Verified::to_json).collect();
     Ok((serde_json::json!(data).to_string(), agrees(&lines)))
+}
+
+/// A model text from the description of a robot in URDF or MJCF, and what of it was not understood, by line.
+#[pyfunction]
+pub(crate) fn robot(py: Python<'_>, text: &str) -> PyResult<(String, Vec<(u32, String)>)> {
+    let found = chetaev::import::import(text);
+    let found = found.map_err(|problem| problem::of_option(py, &problem))?;
+    let notes = found.notes.into_iter();
+    Ok((found.text, notes.map(|n| (n.line, n.message)).collect()))
 }
 
 /// The models that come with Chetaev as JSON; of one model, its texts by path.

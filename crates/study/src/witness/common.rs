@@ -1,7 +1,8 @@
 //! What several witnesses need at the rows of the motion, compiled and evaluated once.
 
-use super::samples::Samples;
-use super::states::States;
+use super::refined::CLEARLY;
+use super::samples::{rows, Samples};
+use super::states::{States, APART};
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::Expr;
@@ -16,6 +17,9 @@ pub(super) struct Common {
     pub(super) n: usize,
     /// How many independent constraints.
     pub(super) r: usize,
+    /// Sizes of coordinates and velocities along the motion, which variations have.
+    sizes: Vec<f64>,
+    speeds: Vec<f64>,
 }
 
 /// The result, computed once.
@@ -34,6 +38,36 @@ const MOVED_JACOBIAN: usize = 8;
 const HESSIAN: usize = 9;
 const MIXED: usize = 10;
 const LAGRANGIAN: usize = 11;
+
+/// How far a coordinate goes, but no farther than one where its natural size is one, as of angles; the natural size where it rests.
+fn size(samples: &Samples, i: usize, natural: f64) -> f64 {
+    let start = samples.at(POSITIONS, 0)[i];
+    let far = (0..samples.times.len()).map(|row| (samples.at(POSITIONS, row)[i] - start).abs());
+    let extent = far.fold(0.0, f64::max);
+    if extent <= 0.0 {
+        natural
+    } else if natural == 1.0 {
+        extent.min(1.0)
+    } else {
+        extent
+    }
+}
+
+/// The largest velocities; of a coordinate that rests its size over the time.
+fn speeds(samples: &Samples, sizes: &[f64]) -> Vec<f64> {
+    let rows = samples.times.len();
+    let length = (samples.times[rows - 1] - samples.times[0]).abs();
+    let of = |(i, size): (usize, &f64)| {
+        let all = (0..rows).map(|row| samples.at(VELOCITIES, row)[i].abs());
+        let largest = all.fold(0.0, f64::max);
+        if largest > 0.0 {
+            largest
+        } else {
+            size / length
+        }
+    };
+    sizes.iter().enumerate().map(of).collect()
+}
 
 impl Common {
     /// Along the computed motion.
@@ -71,10 +105,18 @@ impl Common {
             vec![system.lagrangian],
         ];
         let groups: Vec<&[Expr]> = groups.iter().map(Vec::as_slice).collect();
+        let samples = Samples::new(cx, &groups)?;
+        let evidence = rows(cx)?.0;
+        let natural = |i: usize| evidence.rows().scales.get(i).copied().unwrap_or(1.0);
+        let sizes: Vec<f64> = (0..system.n())
+            .map(|i| size(&samples, i, natural(i)))
+            .collect();
         Ok(Common {
-            samples: Samples::new(cx, &groups)?,
-            lagrangian: States::new(cx, &[system.lagrangian])?,
+            speeds: speeds(&samples, &sizes),
+            sizes,
             n: system.n(),
+            samples,
+            lagrangian: States::new(cx, &[system.lagrangian])?,
             r: cx.selection.rows.len(),
         })
     }
@@ -157,9 +199,33 @@ impl Common {
         moved.iter().zip(velocities).map(|(a, b)| a * b).sum()
     }
 
-    /// δq and D(δq) of a free variation and its rate.
+    /// The sizes of the coordinates.
+    pub(super) fn sizes(&self) -> &[f64] {
+        &self.sizes
+    }
+
+    /// The size of a velocity.
+    pub(super) fn speed(&self, i: usize) -> f64 {
+        self.speeds[i]
+    }
+
+    /// The shortest time in which a coordinate covers its size.
+    pub(super) fn natural_time(&self) -> f64 {
+        let times = self.sizes.iter().zip(&self.speeds).map(|(q, v)| q / v);
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    /// What rounding may leave of the rate of L by differences, as the size of terms below which it shows nothing.
+    pub(super) fn noise(&self, row: usize) -> f64 {
+        let largest = self.lagrangian(row).abs() + self.energy(row).abs();
+        largest * f64::EPSILON / (APART * CLEARLY)
+    }
+
+    /// δq and D(δq) of a free variation and its rate, both in units of the coordinates' sizes.
     pub(super) fn projected(&self, row: usize, of: &[(f64, f64)]) -> Option<(Vec<f64>, Vec<f64>)> {
-        let (eta, rate): (Vec<f64>, Vec<f64>) = of.iter().copied().unzip();
+        let sized = of.iter().zip(&self.sizes);
+        let sized = sized.map(|(w, size)| (w.0 * size, w.1 * size));
+        let (eta, rate): (Vec<f64>, Vec<f64>) = sized.unzip();
         let (jacobian, moved) = (self.jacobian(row), self.moved_jacobian(row));
         super::first::projection(self.r, self.n, jacobian, moved, &eta, &rate)
     }

@@ -266,7 +266,10 @@ impl Varied {
         let mut size = common.central(row, &displacement, &moved).1;
         let (time, time_rate) = match self.action {
             Action::Lagrange | Action::Jacobi => (0.0, 0.0),
-            Action::Identity | Action::Parametric => time[0],
+            Action::Identity | Action::Parametric => {
+                let natural = common.natural_time();
+                (time[0].0 * natural, time[0].1 * natural)
+            }
         };
         // Δq = δq + v Δt, D(Δq) = D(δq) + a Δt + v D(Δt).
         let speeds = common.velocities(row);
@@ -282,7 +285,7 @@ impl Varied {
             .map(|(d, (v, a))| d + a * time + v * time_rate)
             .collect();
         let of_time = common.energy(row).abs() + common.lagrangian(row).abs();
-        size += (of_time * time_rate).abs();
+        size += (of_time * time_rate).abs() + common.noise(row);
         Some(Moved {
             displacement,
             change: Change {

@@ -5,6 +5,7 @@
 //! also end so. Where the motion makes the action stationary `∫(L_q η + p η') dt` vanishes for all of them.
 
 use super::algebra::{gram, null_space, solved, times, transposed_times};
+use super::common::Common;
 use super::refined::SEED;
 use super::samples::{Samples, LEAST};
 use super::wave::Wave;
@@ -45,6 +46,8 @@ pub(super) fn of(cx: &Context<'_>) -> Result<Neighbours, String> {
 /// L_q, p, f_v and f_q by row, of which some are taken.
 struct Along {
     samples: Samples,
+    /// The natural sizes of the coordinates.
+    sizes: Vec<f64>,
     n: usize,
     r: usize,
     first: usize,
@@ -90,7 +93,8 @@ impl Admissible {
         };
         let (fine, coarse) = (of(1)?, of(2)?);
         let ends = |found: &[Variation]| -> Vec<f64> {
-            let row = |i: usize| found.iter().map(move |v| v.end[i]);
+            let size = |i: usize| along.sizes[i];
+            let row = |i: usize| found.iter().map(move |v| v.end[i] / size(i));
             (0..n).flat_map(row).collect()
         };
         let combinations = null_space(&ends(&fine), n, controls.len(), DEPENDENT);
@@ -191,6 +195,7 @@ impl Along {
             return Err("there are too few output times".into());
         }
         Ok(Along {
+            sizes: Common::of(cx)?.sizes().to_vec(),
             samples,
             n: system.n(),
             r: cx.selection.rows.len(),
@@ -229,7 +234,10 @@ impl Along {
         let length = times[first + count] - times[first];
         let control = |row: usize| -> Vec<f64> {
             let share = (row - first) as f64 / count as f64;
-            xi.iter().map(|w| w.at(share, length).0).collect()
+            let sizes = xi.iter().zip(&self.sizes);
+            sizes
+                .map(|(w, size)| w.at(share, length).0 * size / length)
+                .collect()
         };
         let failed = || "the gradients of the constraints are dependent at a row".to_string();
         let rate = |row: usize, eta: &[f64]| self.rate(row, &control(row), eta).ok_or_else(failed);

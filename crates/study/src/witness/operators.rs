@@ -232,7 +232,13 @@ impl Imposed {
                 let a = times(self.samples.at(BY_DISPLACEMENTS, row), n, &value);
                 let b = times(self.samples.at(BY_MOVED, row), n, &moved);
                 (0..n)
-                    .map(|i| if on[i] { a[i] + b[i] } else { own[i].0 })
+                    .map(|i| {
+                        if on[i] {
+                            a[i] + b[i]
+                        } else {
+                            own[i].0 * common.speed(i)
+                        }
+                    })
                     .collect()
             }
         };
@@ -248,6 +254,7 @@ impl Imposed {
         let sizes =
             (0..n).map(|i| (slopes[i] * value[i]).abs() + (momenta[i] * velocities[i]).abs());
         let size = sizes.sum::<f64>() + parts.iter().map(|x| x.abs()).sum::<f64>();
+        let size = size + common.noise(row);
         let change = Change {
             coordinates: value,
             velocities,

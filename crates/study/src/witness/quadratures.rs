@@ -44,6 +44,8 @@ pub struct Quadratures {
     pub constants: Vec<(String, f64)>,
     /// The largest `|β(t) − β(t₀)|` over the sizes of its terms.
     pub residual: f64,
+    /// How much of it the rule of the quadrature and the error of the motion leave open.
+    pub open: f64,
     /// How many rows were compared.
     pub rows: u32,
     /// The stretch.
@@ -160,38 +162,18 @@ impl<'b> Comparison<'b> {
     }
 
     fn compare(&self, stretch: &Stretch) -> Result<Quadratures, String> {
-        let constants = self.constants(stretch)?;
+        let constants = self.constants(stretch.first)?;
         let (first, last) = self.between_meetings(stretch, &constants)?;
-        let roots = self.roots(first, &constants)?;
         let stride = (last - first).div_ceil(MOST);
         let rows: Vec<usize> = (first..=last).step_by(stride).collect();
-        let outside = self
-            .g
-            .gradient(self.integral.action, &self.integral.constants);
-        let integrands: Vec<Vec<Expr>> = roots
-            .iter()
-            .map(|&e| self.g.gradient(e, &self.integral.constants))
-            .collect();
-        let start = self.at_row(&outside, rows[0], &constants)?;
-        let count = constants.len();
-        let (mut sums, mut sizes) = (vec![0.0; count], vec![0.0_f64; count]);
-        let mut residual = 0.0_f64;
-        for pair in rows.windows(2) {
-            for (place, integrand) in integrands.iter().enumerate() {
-                let part = self.between(integrand, place, (pair[0], pair[1]), &constants)?;
-                for (j, value) in part.into_iter().enumerate() {
-                    sums[j] += value;
-                    sizes[j] += value.abs();
-                }
-            }
-            let now = self.at_row(&outside, pair[1], &constants)?;
-            for j in 0..count {
-                let size = sizes[j] + now[j].abs() + start[j].abs();
-                if size > 0.0 {
-                    residual = residual.max((now[j] - start[j] + sums[j]).abs() / size);
-                }
-            }
-        }
+        let residual = self.change(&rows, &constants, 1)?;
+        // The constants of the same motion at the other end differ by its error alone.
+        let again = self.constants(last)?;
+        let others = [
+            self.change(&rows, &constants, 2)?,
+            self.change(&rows, &again, 1)?,
+        ];
+        let open = others.iter().map(|x| (x - residual).abs());
         let names = self.integral.constants.iter();
         let times = &self.samples.times;
         Ok(Quadratures {
@@ -200,9 +182,44 @@ impl<'b> Comparison<'b> {
                 .zip(constants)
                 .collect(),
             residual,
+            open: open.fold(0.0, f64::max),
             rows: rows.len() as u32,
             interval: (times[rows[0]], times[rows[rows.len() - 1]]),
         })
+    }
+
+    /// The largest `|β(t) − β(t₀)|` over the sizes of its terms, with a rule of Gauss on so many equal parts between two rows.
+    fn change(&self, rows: &[usize], constants: &[f64], parts: u32) -> Result<f64, String> {
+        let outside = self
+            .g
+            .gradient(self.integral.action, &self.integral.constants);
+        let integrands: Vec<Vec<Expr>> = self
+            .roots(rows[0], constants)?
+            .iter()
+            .map(|&e| self.g.gradient(e, &self.integral.constants))
+            .collect();
+        let start = self.at_row(&outside, rows[0], constants)?;
+        let count = constants.len();
+        let (mut sums, mut sizes) = (vec![0.0; count], vec![0.0_f64; count]);
+        let mut residual = 0.0_f64;
+        for pair in rows.windows(2) {
+            for (place, integrand) in integrands.iter().enumerate() {
+                let part =
+                    self.between(integrand, place, (pair[0], pair[1]), (constants, parts))?;
+                for (j, value) in part.into_iter().enumerate() {
+                    sums[j] += value;
+                    sizes[j] += value.abs();
+                }
+            }
+            let now = self.at_row(&outside, pair[1], constants)?;
+            for j in 0..count {
+                let size = sizes[j] + now[j].abs() + start[j].abs();
+                if size > 0.0 {
+                    residual = residual.max((now[j] - start[j] + sums[j]).abs() / size);
+                }
+            }
+        }
+        Ok(residual)
     }
 
     /// The longest part of a stretch on which no two roots for a momentum meet. Where they are opposites they do so where it vanishes.
@@ -338,32 +355,35 @@ impl<'b> Comparison<'b> {
         }
     }
 
-    /// `∫ ∂g/∂α dq` over one coordinate from its value at a row to that at another.
+    /// `∫ ∂g/∂α dq` over one coordinate from its value at a row to that at another, on so many equal parts.
     fn between(
         &self,
         integrand: &[Expr],
         place: usize,
         (from, to): (usize, usize),
-        constants: &[f64],
+        (constants, parts): (&[f64], u32),
     ) -> Result<Vec<f64>, String> {
         let (i, symbol, _) = self.own[place];
         let (a, b) = (self.samples.at(0, from)[i], self.samples.at(0, to)[i]);
-        let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
+        let half = (b - a) / 2.0 / f64::from(parts);
         let mut sums = vec![0.0; integrand.len()];
-        for (x, weight) in GAUSS.iter().flat_map(|&(x, w)| [(x, w), (-x, w)]) {
-            let at = [(symbol, middle + half * x)];
-            let values = self.finite(integrand, &self.value(from, constants, &at))?;
-            for (sum, value) in sums.iter_mut().zip(values) {
-                *sum += half * weight * value;
+        for part in 0..parts {
+            let middle = a + half * f64::from(2 * part + 1);
+            for (x, weight) in GAUSS.iter().flat_map(|&(x, w)| [(x, w), (-x, w)]) {
+                let at = [(symbol, middle + half * x)];
+                let values = self.finite(integrand, &self.value(from, constants, &at))?;
+                for (sum, value) in sums.iter_mut().zip(values) {
+                    *sum += half * weight * value;
+                }
             }
         }
         Ok(sums)
     }
 
-    /// The constants that give the momenta at the first row: one of the roots g_e is `π_e − ∂action/∂q_e`, and `∂action/∂q = π` for the others, by
+    /// The constants that give the momenta at a row: one of the roots g_e is `π_e − ∂action/∂q_e`, and `∂action/∂q = π` for the others, by
     /// steps of Gauss and Newton. Those that motions fix stay at their values.
-    fn constants(&self, stretch: &Stretch) -> Result<Vec<f64>, String> {
-        let (g, row) = (self.g, stretch.first);
+    fn constants(&self, row: usize) -> Result<Vec<f64>, String> {
+        let g = self.g;
         let slopes = g.gradient(self.integral.action, &self.coordinates);
         let momenta = self.samples.at(1, row);
         let residuals: Vec<Expr> = (0..self.coordinates.len())

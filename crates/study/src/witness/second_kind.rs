@@ -200,7 +200,8 @@ impl Curve {
     fn varied(&self, row: usize, of: &[(f64, f64)]) -> Option<[Vec<f64>; 3]> {
         let n = self.common.n;
         let (free, own) = of.split_at(n);
-        let own: Vec<f64> = own.iter().map(|w| w.0).collect();
+        let own = own.iter().enumerate();
+        let own: Vec<f64> = own.map(|(i, w)| w.0 * self.common.speed(i)).collect();
         let (value, moved) = self.common.projected(row, free)?;
         let by_velocities = algebra::times(self.common.hessian(row), n, &own).into_iter();
         let by_positions = algebra::times(self.common.mixed(row), n, &value);

@@ -3,7 +3,7 @@
 use super::least_action::{among_admissible, Action, Varied};
 use super::operators::Imposed;
 use super::other_time::{chaplygin, jacobi, parametric};
-use super::refined::{worst, Refined, Rule};
+use super::refined::{worst, Refined, Rule, STRIDES};
 use super::second_kind::Curve;
 use super::wave::Wave;
 use crate::registry::registry;
@@ -59,8 +59,8 @@ fn along<T>(model: Model, ask: impl FnOnce(&Context<'_>) -> T) -> T {
 fn vanishes(found: &Result<Refined, String>, what: &str) {
     let found = found.as_ref().expect(what);
     assert!(found.residuals[0] < 4e-7, "{what}: {found:?}");
-    let clear = found
-        .residuals
+    // The longest steps, sixteen rows, need not have come to the limit.
+    let clear = found.residuals[..STRIDES.len() - 1]
         .windows(2)
         .filter(|r| r[0] > 1e-8 && r[1] < 1e-5);
     for pair in clear {

@@ -1,0 +1,206 @@
+//! Many trajectories of one model: `sweep`.
+
+use crate::texts::Pairs;
+use crate::{problem, waiting};
+use chetaev::ensemble::pool::{self, Batch};
+use chetaev::ensemble::{Kind, Outcome};
+use chetaev::model::model::Model;
+use chetaev::model::Diagnostics;
+use chetaev::study::sweep::together::{Together, VariationError, Variations};
+use chetaev::study::sweep::vary::{rows, Variation};
+use chetaev::study::sweep::Sweep as Prepared;
+use chetaev::study::Hooks;
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+
+/// What varies.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Varied {
+    vary: Pairs,
+    initial: Pairs,
+    rows: Option<String>,
+    zip: bool,
+    count: Option<u64>,
+    seed: u64,
+    pub(crate) samples: u32,
+}
+
+/// Why nothing varies as it was asked for.
+pub(crate) enum NotVaried {
+    Texts(Box<Diagnostics>),
+    Together(VariationError),
+}
+
+impl NotVaried {
+    pub(crate) fn raised(&self, py: Python<'_>) -> PyErr {
+        match self {
+            NotVaried::Texts(found) => problem::of_model(py, found),
+            NotVaried::Together(problem) => problem::of_option(py, problem),
+        }
+    }
+}
+
+impl Varied {
+    /// Reads ranges and rows.
+    pub(crate) fn variations(&self, model: &Model) -> Result<Variations, NotVaried> {
+        let texts = |found: Diagnostics| NotVaried::Texts(Box::new(found));
+        let mut ranges = Vec::new();
+        for (label, is_initial, own) in [
+            ("vary", false, &self.vary),
+            ("initial", true, &self.initial),
+        ] {
+            for (name, range) in own {
+                let text = format!("{name}={range}");
+                ranges.push(Variation::parse(model, (label, &text), is_initial).map_err(texts)?);
+            }
+        }
+        let listed = match &self.rows {
+            Some(text) => rows(model, "rows", text).map_err(texts)?,
+            None => Vec::new(),
+        };
+        let together = Together {
+            zip: self.zip,
+            count: self.count,
+            seed: self.seed,
+        };
+        Variations::new(listed, ranges, together).map_err(NotVaried::Together)
+    }
+}
+
+/// A sweep that is derived and compiled.
+#[pyclass(frozen, module = "chetaev.chetaev_native")]
+pub(crate) struct Sweep {
+    prepared: Prepared,
+}
+
+impl Sweep {
+    pub(crate) fn new(prepared: Prepared) -> Sweep {
+        Sweep { prepared }
+    }
+
+    /// Computes trajectories until all are there, one failed and that ends it, or an interrupt.
+    fn rows(
+        &self,
+        (first, last): (u64, u64),
+        (threads, ends_at_failure): (usize, bool),
+        hooks: &mut Hooks<'_>,
+    ) -> Vec<(u64, Vec<f64>, Outcome)> {
+        let own = &self.prepared;
+        let mut rows = Vec::new();
+        let never = AtomicBool::new(false);
+        let interrupt = hooks.interrupt.unwrap_or(&never);
+        let sink = |batch: Batch| {
+            let failed = batch.iter().any(|(_, outcome)| outcome.stop.is_failure());
+            let batch = batch.into_iter();
+            rows.extend(batch.map(|(index, outcome)| (index, own.values(index), outcome)));
+            let done = rows.len() as f64 / (last - first).max(1) as f64;
+            (hooks.progress)("computing trajectories", Some(done));
+            if failed && ends_at_failure {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let wanted = first..last;
+        let wanted = std::slice::from_ref(&wanted);
+        pool::run(&*own.work(), (wanted, threads), interrupt, sink);
+        rows.sort_by_key(|(index, ..)| *index);
+        rows
+    }
+}
+
+/// Numbers of trajectories, the columns, the failures with their reasons, and whether Ctrl-C ended it.
+type Computed<'py> = (
+    Bound<'py, PyArray1<u64>>,
+    Vec<Bound<'py, PyAny>>,
+    Vec<(u64, String)>,
+    bool,
+);
+
+#[pymethods]
+impl Sweep {
+    /// Number of trajectories.
+    #[getter]
+    fn count(&self) -> u64 {
+        self.prepared.count()
+    }
+
+    /// Names of the columns.
+    #[getter]
+    fn columns(&self) -> Vec<&str> {
+        let all = self.prepared.columns().list.iter();
+        all.map(|column| column.name.as_str()).collect()
+    }
+
+    /// Names of the events of the model.
+    #[getter]
+    fn events(&self) -> Vec<&str> {
+        self.prepared.events()
+    }
+
+    /// What makes this sweep another than others.
+    fn description(&self) -> Vec<(&'static str, String)> {
+        self.prepared.description()
+    }
+
+    /// Computes the trajectories with the numbers first to last, without the last.
+    #[pyo3(signature = (first, last, threads=None, stop_on_failure=false, tell=None))]
+    fn compute<'py>(
+        &self,
+        py: Python<'py>,
+        first: u64,
+        last: u64,
+        threads: Option<usize>,
+        stop_on_failure: bool,
+        tell: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Computed<'py>> {
+        let threads = threads.unwrap_or_else(|| {
+            std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
+        });
+        let last = last.min(self.prepared.count());
+        let found = waiting::done(py, tell, |hooks| {
+            let rows = self.rows((first, last), (threads, stop_on_failure), hooks);
+            let count = rows.len();
+            (self.prepared.columns().encode(&rows), count)
+        })?;
+        let (bytes, count) = found.result;
+        let columns = self.prepared.columns();
+        let mut arrays = Vec::with_capacity(columns.list.len());
+        for (at, column) in columns.list.iter().enumerate() {
+            let words = bytes[columns.range(at, count)].as_chunks::<8>().0.iter();
+            let array = match column.kind {
+                Kind::Float => {
+                    let all: Vec<f64> = words.map(|word| f64::from_le_bytes(*word)).collect();
+                    shaped(PyArray1::from_vec(py, all), count, column.samples)?
+                }
+                Kind::Integer => {
+                    let all: Vec<i64> = words.map(|word| i64::from_le_bytes(*word)).collect();
+                    PyArray1::from_vec(py, all).into_any()
+                }
+            };
+            arrays.push(array);
+        }
+        let indices = chetaev::ensemble::Columns::indices(count, &bytes);
+        Ok((
+            PyArray1::from_vec(py, indices),
+            arrays,
+            columns.failures(count, &bytes),
+            found.interrupted,
+        ))
+    }
+}
+
+/// One number for each trajectory, or a row of samples.
+fn shaped<'py>(
+    all: Bound<'py, PyArray1<f64>>,
+    count: usize,
+    samples: Option<usize>,
+) -> PyResult<Bound<'py, PyAny>> {
+    match samples {
+        Some(samples) => Ok(all.reshape([count, samples])?.into_any()),
+        None => Ok(all.into_any()),
+    }
+}

@@ -1,0 +1,345 @@
+"""Many trajectories of one model: over ranges, over rows of values, on all cores or on a cluster."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from .errors import Interrupted
+from .results import Result, write
+from .texts import exact
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from . import chetaev_native as native
+    from .system import System
+
+    Arrays = dict[str, NDArray[np.generic]]
+
+#: Trajectories whose end was reached, that ended early, that did not begin; an event k has the number 10 + k.
+_FINISHED, _EARLY, _NOT_STARTED, _EVENTS = 0, 1, 2, 10
+
+
+class Sweep(Result):
+    """Trajectories of one model, a row for each. ``sweep["vary_a"]``, ``sweep["end_x"]``, ``sweep["stop"]`` are arrays.
+
+    Attributes
+    ----------
+    names : list of str
+        ``vary_NAME``; ``stop`` (0 the end was reached, 1 ended early, 2 did not begin, 10 + k event k); ``t_start``, ``t``, ``t_stop``;
+        ``steps``, ``rejected``; ``start_NAME``, ``end_NAME`` (x' is ``x_d``); ``drift_NAME``; ``count_EVENT``, ``first_EVENT``; with samples
+        ``sample_t`` and ``sample_NAME`` of shape (trajectories, samples).
+    failures : dict from int to str
+        Why a trajectory ended early or did not begin, by its number.
+    """
+
+    def __init__(self, arrays: Arrays, failures: Mapping[int, str], events: Sequence[str], archive: str | None = None) -> None:
+        import numpy as np
+
+        self._arrays = dict(arrays)
+        self.names = list(arrays)
+        self.failures = dict(failures)
+        stops, numbers = np.unique(self._arrays["stop"], return_counts=True)
+        counts = {int(stop): int(number) for stop, number in zip(stops, numbers)}
+        data = {
+            "trajectories": len(self),
+            "taken_over": 0,
+            "finished": counts.get(_FINISHED, 0),
+            "events": {name: counts.get(_EVENTS + k, 0) for k, name in enumerate(events)},
+            "ended_early": counts.get(_EARLY, 0),
+            "not_started": counts.get(_NOT_STARTED, 0),
+            "archive": archive,
+            "columns": self.names,
+        }
+        super().__init__(data, _in_words(data))
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        try:
+            return self._arrays[name]
+        except KeyError:
+            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.names)}") from None
+
+    def __len__(self) -> int:
+        return len(self._arrays["stop"])
+
+    def keys(self) -> list[str]:
+        """Names of the columns; with this, ``dict(sweep)`` works."""
+        return list(self.names)
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame``, a row for each trajectory; samples are left out."""
+        import pandas as pd
+
+        return pd.DataFrame({name: own for name, own in self._arrays.items() if own.ndim == 1})
+
+    def to_polars(self) -> Any:
+        """A ``polars.DataFrame``, a row for each trajectory; samples are left out."""
+        import polars as pl
+
+        return pl.DataFrame({name: own for name, own in self._arrays.items() if own.ndim == 1})
+
+    def to_xarray(self) -> Any:
+        """An ``xarray.Dataset`` over the trajectories, and over the samples where there are some."""
+        import xarray as xr
+
+        axes = ("trajectory", "sample")
+        return xr.Dataset({name: (axes[: own.ndim], own) for name, own in self._arrays.items()})
+
+    def to_arrow(self) -> Any:
+        """A ``pyarrow.Table``, a row for each trajectory; samples are lists."""
+        return _table(self._arrays, self.failures)
+
+    def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes ``sweep.npz`` and ``failures.csv``."""
+        import numpy as np
+
+        archive = io.BytesIO()
+        np.savez(archive, **self._arrays)  # type: ignore[arg-type, unused-ignore]
+        write(os.path.join(folder, "sweep.npz"), archive.getvalue())
+        text = io.StringIO()
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(["trajectory", "reason"])
+        rows.writerows(sorted(self.failures.items()))
+        write(os.path.join(folder, "failures.csv"), text.getvalue().encode())
+
+
+def _in_words(data: Mapping[str, Any]) -> str:
+    kinds = [("finished", "the end of the time span was reached"), ("ended_early", "ended early"), ("not_started", "did not begin")]
+    lines = [f"{data['trajectories']} trajectories"]
+    lines += [f"{data[key]:>9}  {words}" for key, words in kinds if data[key]]
+    lines += [f"{number:>9}  event {name}" for name, number in data["events"].items() if number]
+    return "\n".join(lines)
+
+
+def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Ranges as the texts of the command line: texts as they are, lists and arrays value by value."""
+    found = []
+    for name, own in (given or {}).items():
+        values = [own] if isinstance(own, str) or not isinstance(own, Iterable) else list(own)
+        found.append((name, ",".join(exact(value) for value in values)))
+    return found
+
+
+def table_text(rows: Any) -> str | None:
+    """Rows as the text of a file of values: of a file by its path, of a mapping to arrays, of a data frame."""
+    if rows is None:
+        return None
+    if isinstance(rows, (str, os.PathLike)):
+        with open(rows, encoding="utf-8") as file:
+            return file.read()
+    columns = columns_of({name: rows[name] for name in rows})
+    lines = [",".join(f'"{name}"' for name in columns)]
+    lines += [",".join(map(repr, values)) for values in zip(*(own.tolist() for own in columns.values()))]
+    return "\n".join(lines) + "\n"
+
+
+def columns_of(given: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
+    """Columns of one length; numbers are repeated."""
+    import numpy as np
+
+    wide = np.broadcast_arrays(*(np.atleast_1d(np.asarray(own, dtype=float)) for own in given.values()))
+    for name, own in zip(given, wide):
+        if own.ndim != 1:
+            raise ValueError(f"`{name}` has {own.ndim} dimensions: one value for each trajectory is needed")
+    return dict(zip(given, wide))
+
+
+def computed(
+    prepared: native.Sweep,
+    span: tuple[int, int],
+    threads: int | None,
+    stop_on_failure: bool,
+    tell: Any,
+) -> tuple[Sweep, bool]:
+    """Trajectories with the numbers of a span, and whether Ctrl-C ended them."""
+    _, arrays, failures, interrupted = prepared.compute(*span, threads, stop_on_failure, tell)
+    return Sweep(dict(zip(prepared.columns, arrays)), dict(failures), prepared.events), interrupted
+
+
+def ensemble(
+    system: System,
+    *,
+    initial: Mapping[str, ArrayLike] | None = None,
+    parameters: Mapping[str, ArrayLike] | None = None,
+    samples: int = 0,
+    threads: int | None = None,
+    executor: Any = None,
+    chunk: int = 1000,
+    out: str | os.PathLike[str] | None = None,
+    progress: bool = False,
+    **motion: Any,
+) -> Sweep:
+    """Trajectories from arrays of initial values and parameters, on all cores or by an executor.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+    initial, parameters : mapping from names to arrays of shape (trajectories,)
+        What differs from trajectory to trajectory; a number holds for all.
+    samples : int
+        States kept along each trajectory, at equal intervals with both ends.
+    threads : int, optional
+        Threads of this process, as many as the machine runs at once when left out; with an executor each task has one.
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Who computes the chunks. Systems pickle, and results have the same bits whoever computes.
+    chunk : int
+        Trajectories in one task and in one file.
+    out : path, optional
+        A folder for one Parquet file a chunk (this needs pyarrow), written by rename under a name that follows from what is computed: a
+        computation that was interrupted or killed goes on with the chunks that are missing.
+    **motion
+        ``t_end``, ``tolerance``, ``method`` and the other keywords of :meth:`System.simulate`.
+
+    Raises
+    ------
+    Interrupted
+        By Ctrl-C; its ``result`` has the trajectories that had ended.
+
+    Examples
+    --------
+    >>> import chetaev, numpy as np
+    >>> sleigh = chetaev.System.from_gallery("chaplygin-sleigh")
+    >>> found = chetaev.ensemble(sleigh, parameters={"a": np.linspace(0.1, 0.5, 9)}, t_end=5)
+    >>> found["end_x"].shape
+    (9,)
+    """
+    columns = columns_of({**(parameters or {}), **(initial or {})})
+    if not columns:
+        raise ValueError("nothing varies: give arrays in `initial` or `parameters`")
+    if executor is None and out is None:
+        return system.sweep(rows=columns, samples=samples, threads=threads, progress=progress, **motion)
+    if chunk < 1:
+        raise ValueError("chunk: at least one trajectory is needed in a task")
+    count = len(next(iter(columns.values())))
+    tasks = [
+        _Task(system, {name: own[first : first + chunk] for name, own in columns.items()}, samples, motion, out, executor is None, threads)
+        for first in range(0, count, chunk)
+    ]
+    return _joined(_ended(tasks, executor, progress))
+
+
+class _Task:
+    """A chunk: what is computed, and where it is kept."""
+
+    def __init__(
+        self, system: System, columns: dict[str, NDArray[np.float64]], samples: int, motion: dict[str, Any],
+        out: str | os.PathLike[str] | None, here: bool, threads: int | None,
+    ) -> None:
+        self.system, self.columns, self.samples, self.motion = system, columns, samples, motion
+        self.threads = threads if here else 1
+        self.key = self._key()
+        self.path = None if out is None else os.path.join(os.path.abspath(out), f"{self.key}.parquet")
+
+    def _key(self) -> str:
+        """What is the same for equal computations, and for no others."""
+        from . import __version__
+
+        words = {name: value if isinstance(value, bool) or value is None else str(value) for name, value in self.motion.items()}
+        said = json.dumps([__version__, self.system._native.texts(), self.samples, words, list(self.columns)], sort_keys=True)
+        digest = hashlib.sha256(said.encode())
+        for own in self.columns.values():
+            digest.update(own.tobytes())
+        return digest.hexdigest()[:32]
+
+    def __call__(self) -> tuple[Any, dict[int, str], list[str]]:
+        """Arrays, failures, names of events; of a chunk that is kept in a file its path."""
+        if self.path is not None and os.path.exists(self.path):
+            return self.path, {}, []
+        found = self.system.sweep(rows=self.columns, samples=self.samples, threads=self.threads, **self.motion)
+        if self.path is None:
+            return found._arrays, found.failures, list(found.to_dict()["events"])
+        import pyarrow.parquet as parquet
+
+        sink = io.BytesIO()
+        table = found.to_arrow()
+        parquet.write_table(table.replace_schema_metadata({"events": json.dumps(list(found.to_dict()["events"]))}), sink)
+        write(self.path, sink.getvalue())
+        return self.path, {}, []
+
+
+def _call(task: _Task) -> tuple[Any, dict[int, str], list[str]]:
+    return task()
+
+
+def _ended(tasks: list[_Task], executor: Any, progress: bool) -> list[tuple[Any, dict[int, str], list[str]]]:
+    """What the tasks gave, in their order."""
+    from .system import _Progress
+
+    if executor is None:
+        waiting: list[Any] = tasks
+    elif type(executor).__module__.partition(".")[0] == "distributed":
+        waiting = [executor.submit(_call, task, key=f"chetaev-{task.key}") for task in tasks]
+    else:
+        waiting = [executor.submit(_call, task) for task in tasks]
+    found = []
+    with _Progress(progress) as tell:
+        try:
+            for number, own in enumerate(waiting, 1):
+                found.append(own() if executor is None else own.result())
+                if tell is not None:
+                    tell("computing trajectories", number / len(waiting))
+        except KeyboardInterrupt as problem:
+            if isinstance(problem, Interrupted):
+                found.append((problem.result._arrays, problem.result.failures, list(problem.result.to_dict()["events"])))
+            raise Interrupted(_joined(found) if found else None) from None
+        finally:
+            for own in waiting if executor is not None else []:
+                own.cancel()
+    return found
+
+
+def _joined(parts: list[tuple[Any, dict[int, str], list[str]]]) -> Sweep:
+    import numpy as np
+
+    read = [_read(path) if isinstance(path, str) else (path, failures, events) for path, failures, events in parts]
+    failures: dict[int, str] = {}
+    before = 0
+    for arrays, own, _ in read:
+        failures.update({before + number: reason for number, reason in own.items()})
+        before += len(arrays["stop"])
+    arrays = {name: np.concatenate([own[name] for own, _, _ in read]) for name in read[0][0]}
+    return Sweep(arrays, failures, read[0][2])
+
+
+def _table(arrays: Arrays, failures: Mapping[int, str]) -> Any:
+    import pyarrow as pa
+
+    def column(own: NDArray[Any]) -> Any:
+        if own.ndim == 1:
+            return pa.array(own)
+        return pa.FixedSizeListArray.from_arrays(pa.array(own.ravel()), own.shape[1])
+
+    count = len(arrays["stop"])
+    reasons = pa.array([failures.get(number) for number in range(count)], type=pa.string())
+    return pa.table({**{name: column(own) for name, own in arrays.items()}, "reason": reasons})
+
+
+def _read(path: str) -> tuple[Arrays, dict[int, str], list[str]]:
+    import numpy as np
+    import pyarrow as pa
+    import pyarrow.parquet as parquet
+
+    table = parquet.read_table(path)
+    arrays: Arrays = {}
+    for name in table.column_names:
+        own = table[name].combine_chunks()
+        if pa.types.is_fixed_size_list(own.type):
+            flat = np.array(own.flatten())
+            arrays[name] = flat.reshape(len(own), own.type.list_size)
+        elif name != "reason":
+            arrays[name] = np.array(own)
+    reasons = table["reason"].to_pylist()
+    failures = {number: reason for number, reason in enumerate(reasons) if reason is not None}
+    events = json.loads((table.schema.metadata or {}).get(b"events", b"[]"))
+    return arrays, failures, events

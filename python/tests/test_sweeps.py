@@ -1,0 +1,146 @@
+"""Sweeps and ensembles: the same bits as the command, wherever they are computed."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import multiprocessing
+import os
+import signal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_commands import said
+
+import chetaev
+from chetaev import System
+
+VARIED = {"a": np.linspace(0.1, 0.5, 12), "W": np.linspace(1.0, 3.0, 12)}
+
+
+@pytest.fixture(scope="module")
+def sleigh(gallery: Path) -> System:
+    return System.from_file(gallery / "chaplygin-sleigh" / "model.toml")
+
+
+def same(ours: Any, theirs: Any) -> None:
+    assert ours.keys() == theirs.keys() or list(ours.keys()) == list(theirs.keys())
+    for name in ours.keys():
+        assert np.array_equal(ours[name], theirs[name], equal_nan=True), name
+
+
+def test_sweeps_are_those_of_the_command(sleigh: System, command: Any, gallery: Path, tmp_path: Path) -> None:
+    path = str(gallery / "chaplygin-sleigh" / "model.toml")
+    arguments = ["--vary", "a=0.1:0.5:5", "--initial", "phi=0,1/10", "--samples", "4", "--t-end", "3"]
+    told = command("sweep", path, *arguments, "--out", str(tmp_path))
+    ours = sleigh.sweep(vary={"a": "0.1:0.5:5"}, initial={"phi": [0, "1/10"]}, samples=4, t_end=3, out=tmp_path / "ours")
+    assert ours.to_dict() | {"archive": None} == told | {"archive": None}
+    with np.load(tmp_path / "sweep.npz") as theirs, np.load(tmp_path / "ours" / "sweep.npz") as written:
+        same(ours, dict(theirs))
+        same(ours, dict(written))
+    assert ours["sample_x"].shape == (10, 4)
+    assert np.array_equal(ours["sample_x"][:, -1], ours["end_x"])
+
+
+def test_a_row_is_the_motion_with_its_values(sleigh: System) -> None:
+    found = chetaev.ensemble(sleigh, parameters={"a": [0.2, 0.3]}, t_end=2)
+    for number, a in enumerate((0.2, 0.3)):
+        motion = sleigh.with_values(a=a).simulate(t_end=2)
+        assert found["end_x"][number] == motion["x"][-1]
+
+
+def test_random_values_follow_from_the_seed(sleigh: System) -> None:
+    one, two, other = (sleigh.sweep(vary={"a": "0.1:0.5:uniform"}, count=3, seed=seed, t_end=1) for seed in (4, 4, 5))
+    same(one, two)
+    assert not np.array_equal(one["vary_a"], other["vary_a"])
+
+
+def test_what_fails_is_told() -> None:
+    falling = System(
+        "falling", coordinates=["x"], lagrangian="1/2 x'^2 - sqrt(x)", initial={"x": 1}, simulation={"t_end": 10},
+    )
+    found = falling.sweep(rows={"x": [1.0, 1e6]})
+    assert list(found["stop"]) == [1, 0]
+    assert list(found.failures) == [0]
+    assert "ended early" in str(found)
+
+
+def test_wrong_values_are_told(sleigh: System) -> None:
+    with pytest.raises(chetaev.ModelError, match="nothing"):
+        sleigh.sweep(vary={"nothing": "0:1:3"})
+    with pytest.raises(chetaev.OptionError, match="nothing varies"):
+        sleigh.sweep()
+    with pytest.raises(ValueError, match="nothing varies"):
+        chetaev.ensemble(sleigh)
+    with pytest.raises(ValueError):
+        chetaev.ensemble(sleigh, parameters={"a": [1, 2], "W": [1, 2, 3]})
+    with pytest.raises(ValueError, match="2 dimensions"):
+        chetaev.ensemble(sleigh, parameters={"a": [[1, 2]]})
+
+
+def test_rows_come_from_files_and_frames(sleigh: System, tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    (tmp_path / "rows.csv").write_text("a,W\n0.2,1.5\n0.3,1.25\n")
+    frame = pandas.DataFrame({"a": [0.2, 0.3], "W": [1.5, 1.25]})
+    one, two = sleigh.sweep(rows=tmp_path / "rows.csv", t_end=1), sleigh.sweep(rows=frame, t_end=1)
+    same(one, two)
+    assert list(one.to_pandas()["vary_W"]) == [1.5, 1.25]
+
+
+def test_executors_give_the_same_bits(sleigh: System, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    alone = chetaev.ensemble(sleigh, parameters=VARIED, samples=3, t_end=2)
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as executor:
+        apart = chetaev.ensemble(sleigh, parameters=VARIED, samples=3, t_end=2, executor=executor, chunk=5, out=tmp_path)
+    same(alone, apart)
+    with concurrent.futures.ThreadPoolExecutor(2) as executor:
+        same(alone, chetaev.ensemble(sleigh, parameters=VARIED, samples=3, t_end=2, executor=executor, chunk=4))
+
+
+def test_a_computation_goes_on_with_what_is_missing(sleigh: System, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    asked: Any = {"parameters": VARIED, "t_end": 2, "chunk": 5, "out": tmp_path}
+    alone = chetaev.ensemble(sleigh, **asked)
+    files = sorted(tmp_path.iterdir())
+    assert len(files) == 3
+    files[1].unlink()
+    kept = {own: own.stat().st_mtime_ns for own in files if own.exists()}
+    same(alone, chetaev.ensemble(sleigh, **asked))
+    assert {own: own.stat().st_mtime_ns for own in kept} == kept
+    assert files[1].exists()
+    # Other values are other files.
+    chetaev.ensemble(sleigh, **(asked | {"t_end": 3}))
+    assert len(list(tmp_path.iterdir())) == 6
+
+
+def test_a_cluster_of_which_a_worker_dies(sleigh: System, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    pytest.importorskip("pyarrow")
+    parameters = {"a": np.linspace(0.1, 0.5, 60)}
+    alone = chetaev.ensemble(sleigh, parameters=parameters, t_end=20)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            victim = client.submit(os.getpid, pure=False).result()
+            kill = client.submit(_killed, victim, os.getpid(), pure=False)
+            found = chetaev.ensemble(sleigh, parameters=parameters, t_end=20, executor=client, chunk=6, out=tmp_path)
+            kill.cancel()
+    same(alone, found)
+    assert len(list(tmp_path.glob("*.parquet"))) == 10
+
+
+def _killed(victim: int, keeper: int) -> None:
+    """Kills a worker, which may be the one that runs this; once, as the second time nobody has the number."""
+    assert victim != keeper
+    try:
+        os.kill(victim, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+def test_steady_motions_are_the_json(command: Any, gallery: Path) -> None:
+    path = gallery / "double-pendulum" / "model.toml"
+    found = System.from_file(path).steady()
+    assert found.to_dict() == command("steady", str(path))
+    assert len(found.motions) == 4
