@@ -69,7 +69,7 @@ def casadi_library() -> Any:
         "arctanh": "atanh", "abs": "fabs",
     }
     functions = {name: getattr(ca, name) for name in same} | {ours: getattr(ca, theirs) for ours, theirs in other.items()}
-    return SimpleNamespace(array=array, linalg=SimpleNamespace(solve=solve), pi=ca.pi, nan=ca.nan, **functions)
+    return SimpleNamespace(array=array, linalg=SimpleNamespace(solve=solve), pi=ca.pi, nan=float("nan"), **functions)
 
 
 def names_of(source: str) -> tuple[list[str], list[str]]:

@@ -28,8 +28,11 @@ pub static CLAIMS: &[&dyn Claim] = &[
 const ROUNDING: f64 = 1e-8;
 /// Where doubled steps change the action by more, the quadrature says nothing.
 const COARSE: f64 = 1e-2;
-/// A change of the action beyond this part of its terms, and beyond the error of the steps, is one.
-const SMALL: f64 = 1e-6;
+/// A change of the action beyond this part of its terms, ten times what the motion leaves open, and beyond the error of the steps,
+/// is one.
+const CHANGED: f64 = 10.0 * ROUNDING;
+/// What is to contradict a proof is larger still.
+const CONTRADICTING: f64 = 100.0 * ROUNDING;
 
 pub(super) fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
     let applies = evidence(cx).is_some() && cx.terms.order == 1;
@@ -279,8 +282,8 @@ pub(super) fn of_action(
         ));
     }
     // Doubled steps have sixteen times the error: what is left is a fifteenth of the difference, or not much more.
-    let differs = !vanishes && found.change > SMALL + 2.0 * found.error;
-    let contradicts = found.change > SMALL + 30.0 * found.error;
+    let differs = !vanishes && found.change > CHANGED + 2.0 * found.error;
+    let contradicts = found.change > CONTRADICTING + 30.0 * found.error;
     let (said, residual) = match (&verdict, vanishes) {
         (Verdict::Proved(_), true) => ("the action is stationary", found.change),
         (Verdict::Proved(_), false) if differs && kappa::loses_rank(cx) => (
