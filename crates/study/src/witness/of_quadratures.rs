@@ -71,7 +71,7 @@ impl Claim for WitnessOfQuadratures {
                 Verdict::undecided("the equation separates, but no quadratures were written").into()
             }
             Err(Unmet::NoMotion) => no_motion(cx),
-            Err(Unmet::Failed(why)) => Verdict::undecided(why).into(),
+            Err(Unmet::Failed(why)) => Verdict::undecided(why.to_string()).into(),
         }
     }
 }

@@ -11,6 +11,7 @@ use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::system::CompleteIntegral;
 use chetaev_mechanics::Context;
 use chetaev_principles::hamilton_jacobi::{momenta_on_motions, separated, verified, Extremum};
+use chetaev_symbolic::evaluate::EvaluateError;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 
 /// More coordinates are too many.
@@ -59,8 +60,37 @@ pub(super) enum Unmet {
     NoIntegral,
     /// The curves of the quadratures are no motions.
     NoMotion,
-    /// The numbers were not found: no rows at equal steps, no stretch without a turning point, no value.
-    Failed(String),
+    /// The numbers were not found.
+    Failed(NotCompared),
+}
+
+/// Why β has no numbers along a motion.
+#[derive(Clone, Debug, thiserror::Error)]
+pub(super) enum NotCompared {
+    /// There are no rows at equal steps, for this reason.
+    #[error("{0}")]
+    Samples(String),
+    /// The momenta need κ.
+    #[error("κ is not known for the motions")]
+    Kappa,
+    /// There is no motion.
+    #[error("no motion was computed")]
+    Motion,
+    /// There is no stretch without a turning point.
+    #[error("some momentum of a quadrature vanishes at most rows of the motion")]
+    Turning,
+    /// There is no stretch on which one root is the momentum.
+    #[error("the two roots for a momentum meet at most rows of the motion")]
+    Meeting,
+    /// A function cannot be evaluated.
+    #[error(transparent)]
+    Evaluation(#[from] EvaluateError),
+    /// A value is not finite.
+    #[error("a quadrature has no value along the motion")]
+    Value,
+    /// The equations for the constants were not solved.
+    #[error("the constants of the motion were not found")]
+    Constants,
 }
 
 /// The complete integral of a subject of `hamilton-jacobi.applicable`.
@@ -133,12 +163,12 @@ struct Stretch {
 }
 
 impl<'b> Comparison<'b> {
-    fn new(cx: &'b Context<'_>, integral: &'b CompleteIntegral) -> Result<Self, String> {
+    fn new(cx: &'b Context<'_>, integral: &'b CompleteIntegral) -> Result<Self, NotCompared> {
         let (system, g) = (cx.system, &cx.system.graph);
-        let momenta = momenta_on_motions(cx).ok_or("κ is not known for the motions")?;
+        let momenta = momenta_on_motions(cx).ok_or(NotCompared::Kappa)?;
         let positions: Vec<Expr> = system.coordinates.iter().map(|c| c.q).collect();
-        let samples = Samples::new(cx, &[&positions, &momenta])?;
-        let evidence = evidence(cx).ok_or("no motion was computed")?;
+        let samples = Samples::new(cx, &[&positions, &momenta]).map_err(NotCompared::Samples)?;
+        let evidence = evidence(cx).ok_or(NotCompared::Motion)?;
         let own = integral.quadratures.iter();
         Ok(Comparison {
             g,
@@ -161,7 +191,7 @@ impl<'b> Comparison<'b> {
         })
     }
 
-    fn compare(&self, stretch: &Stretch) -> Result<Quadratures, String> {
+    fn compare(&self, stretch: &Stretch) -> Result<Quadratures, NotCompared> {
         let constants = self.constants(stretch.first)?;
         let (first, last) = self.between_meetings(stretch, &constants)?;
         let stride = (last - first).div_ceil(MOST);
@@ -189,7 +219,7 @@ impl<'b> Comparison<'b> {
     }
 
     /// The largest `|β(t) − β(t₀)|` over the sizes of its terms, with a rule of Gauss on so many equal parts between two rows.
-    fn change(&self, rows: &[usize], constants: &[f64], parts: u32) -> Result<f64, String> {
+    fn change(&self, rows: &[usize], constants: &[f64], parts: u32) -> Result<f64, NotCompared> {
         let outside = self
             .g
             .gradient(self.integral.action, &self.integral.constants);
@@ -227,7 +257,7 @@ impl<'b> Comparison<'b> {
         &self,
         stretch: &Stretch,
         constants: &[f64],
-    ) -> Result<(usize, usize), String> {
+    ) -> Result<(usize, usize), NotCompared> {
         let g = self.g;
         let middles = self.own.iter().filter_map(|&(i, symbol, [root, other])| {
             let middle = g.div(g.add(&[root, other]), g.integer(2));
@@ -237,7 +267,7 @@ impl<'b> Comparison<'b> {
         let middles: Vec<(usize, Expr)> = middles.collect();
         let (mut first, mut last) = (stretch.first, stretch.last);
         for (i, middle) in middles {
-            let off = |row: usize| -> Result<f64, String> {
+            let off = |row: usize| -> Result<f64, NotCompared> {
                 Ok(self.samples.at(1, row)[i] - self.at_row(&[middle], row, constants)?[0])
             };
             let offs: Vec<f64> = (first..=last).map(off).collect::<Result<_, _>>()?;
@@ -255,12 +285,12 @@ impl<'b> Comparison<'b> {
         }
         match last - first >= FEWEST {
             true => Ok((first, last)),
-            false => Err("the two roots for a momentum meet at most rows of the motion".into()),
+            false => Err(NotCompared::Meeting),
         }
     }
 
     /// The roots that are the momenta at a row. The one written need not be: with `L = −q'²/2` it is negative.
-    fn roots(&self, row: usize, constants: &[f64]) -> Result<Vec<Expr>, String> {
+    fn roots(&self, row: usize, constants: &[f64]) -> Result<Vec<Expr>, NotCompared> {
         let of = |&(i, symbol, [root, other]): &(usize, Symbol, [Expr; 2])| {
             let outside = self.g.diff(self.integral.action, symbol);
             let values = self.at_row(&[root, other, outside], row, constants)?;
@@ -272,7 +302,7 @@ impl<'b> Comparison<'b> {
     }
 
     /// The longest stretch on which no momentum that is found by a quadrature comes near zero.
-    fn stretch(&self) -> Result<Stretch, String> {
+    fn stretch(&self) -> Result<Stretch, NotCompared> {
         let rows = self.samples.times.len();
         let momentum = |place: usize, row: usize| self.samples.at(1, row)[self.own[place].0];
         let sizes: Vec<f64> = (0..self.own.len())
@@ -313,7 +343,7 @@ impl<'b> Comparison<'b> {
         }
         match best {
             Some(stretch) if stretch.last - stretch.first >= FEWEST => Ok(stretch),
-            _ => Err("some momentum of a quadrature vanishes at most rows of the motion".into()),
+            _ => Err(NotCompared::Turning),
         }
     }
 
@@ -338,7 +368,7 @@ impl<'b> Comparison<'b> {
         }
     }
 
-    fn at_row(&self, es: &[Expr], row: usize, constants: &[f64]) -> Result<Vec<f64>, String> {
+    fn at_row(&self, es: &[Expr], row: usize, constants: &[f64]) -> Result<Vec<f64>, NotCompared> {
         self.finite(es, &self.value(row, constants, &[]))
     }
 
@@ -346,12 +376,12 @@ impl<'b> Comparison<'b> {
         &self,
         es: &[Expr],
         value: &dyn Fn(Symbol) -> Option<f64>,
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<Vec<f64>, NotCompared> {
         let values = self.g.evaluate_f64(es, value);
-        let values = values.map_err(|problem| problem.to_string())?;
+        let values = values?;
         match values.iter().all(|x| x.is_finite()) {
             true => Ok(values),
-            false => Err("a quadrature has no value along the motion".into()),
+            false => Err(NotCompared::Value),
         }
     }
 
@@ -362,7 +392,7 @@ impl<'b> Comparison<'b> {
         place: usize,
         (from, to): (usize, usize),
         (constants, parts): (&[f64], u32),
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<Vec<f64>, NotCompared> {
         let (i, symbol, _) = self.own[place];
         let (a, b) = (self.samples.at(0, from)[i], self.samples.at(0, to)[i]);
         let half = (b - a) / 2.0 / f64::from(parts);
@@ -382,7 +412,7 @@ impl<'b> Comparison<'b> {
 
     /// The constants that give the momenta at a row: one of the roots g_e is `π_e − ∂action/∂q_e`, and `∂action/∂q = π` for the others, by
     /// steps of Gauss and Newton. Those that motions fix stay at their values.
-    fn constants(&self, row: usize) -> Result<Vec<f64>, String> {
+    fn constants(&self, row: usize) -> Result<Vec<f64>, NotCompared> {
         let g = self.g;
         let slopes = g.gradient(self.integral.action, &self.coordinates);
         let momenta = self.samples.at(1, row);
@@ -428,7 +458,7 @@ impl<'b> Comparison<'b> {
             let start = natural.iter().map(|size| guess * size).collect();
             self.met(&system, start)
         });
-        let mut constants = found.ok_or("the constants of the motion were not found")?;
+        let mut constants = found.ok_or(NotCompared::Constants)?;
         for &(s, value) in &self.integral.motion {
             let at = self.at_row(&[value], row, &constants)?[0];
             if let Some(j) = self.integral.constants.iter().position(|&own| own == s) {
