@@ -54,9 +54,10 @@ impl System {
         let mut is_definite = true;
         for k in 0..n {
             // A row that leads already has no entry to the left of its pivot, and is in no later column any more.
-            let row = match columns[k].contains(&k) {
-                true => k,
-                false => columns[k].first().copied()?,
+            let row = if columns[k].contains(&k) {
+                k
+            } else {
+                columns[k].first().copied()?
             };
             self.eliminate(row, k, &mut columns);
             is_definite &= row == k && !rational::is_negative(&self.rows[row][&k]);

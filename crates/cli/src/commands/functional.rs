@@ -39,9 +39,10 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
         let study = studied(problem, &wants, arguments.budget, hooks);
         (hooks.progress)("writing the report", None);
         let written = write_all(&study, &words, &folder, hooks);
-        let told = match arguments.json {
-            true => Some(String::new()),
-            false => in_time(hooks, GRACE, || summary(&study, terminal::style())),
+        let told = if arguments.json {
+            Some(String::new())
+        } else {
+            in_time(hooks, GRACE, || summary(&study, terminal::style()))
         };
         (study, written, told)
     });
@@ -57,9 +58,10 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
         terminal::out(&written.json);
     } else {
         terminal::out(&told.unwrap_or_default());
-        let report = match written.has_report {
-            true => folder.join(REPORT).display().to_string(),
-            false => "not written, as the study was interrupted".to_owned(),
+        let report = if written.has_report {
+            folder.join(REPORT).display().to_string()
+        } else {
+            "not written, as the study was interrupted".to_owned()
         };
         terminal::out(&format!("\nreport: {report}\n"));
     }

@@ -1,6 +1,6 @@
 //! What is imposed beforehand has to be possible: of no field nothing is proved.
 
-use crate::table::studied_text;
+use crate::table::{decided, studied_text};
 use chetaev_functionals::Study;
 
 fn studied(imposed: &[(&str, &str)], more: &str) -> Study {
@@ -48,11 +48,7 @@ a = "u,xx + u,yy + f = 0"
 }
 
 fn euler(study: &Study) -> (&'static str, String) {
-    let own = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.euler");
-    let verdict = &own.unwrap().finding.verdict;
+    let verdict = decided(study, "functional.euler");
     (verdict.word(), verdict.detail().to_owned())
 }
 

@@ -1,15 +1,11 @@
 //! The closed solution of the bar (T4 §5, E1; reference case S-F13) in every row of the table.
 
-use crate::table::{row_text, studied, studied_text, ROWS};
+use crate::table::{decided, row_text, studied, studied_text, ROWS};
 
 const LINEAR: &[(&str, &str)] = &[("d", "1"), ("nonlinear", "0")];
 
 fn verdict(study: &chetaev_functionals::Study) -> (String, String) {
-    let found = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.solution");
-    let verdict = &found.unwrap().finding.verdict;
+    let verdict = decided(study, "functional.solution");
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 

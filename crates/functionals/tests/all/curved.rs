@@ -1,6 +1,6 @@
 //! A field that is known on a curved piece of the boundary: what follows for its derivatives there, by formulas of differential geometry.
 
-use crate::table::{read_text, studied_text};
+use crate::table::{decided, read_text, studied_text};
 use chetaev_model::Style;
 
 /// A membrane or a plate with the edge S, on which the field vanishes.
@@ -31,11 +31,7 @@ edge = {{ equation = "{edge}", on = "S" }}
 
 fn verdict(text: &str) -> (String, String) {
     let study = studied_text("p4p", text, &[]);
-    let found = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.euler");
-    let verdict = &found.unwrap().finding.verdict;
+    let verdict = decided(&study, "functional.euler");
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 

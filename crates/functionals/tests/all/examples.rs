@@ -1,6 +1,6 @@
 //! The acceptance examples of T4 §5.
 
-use crate::table::{loaded_text, read_text, row_text, studied_text, ROWS};
+use crate::table::{decided, loaded_text, read_text, row_text, studied_text, ROWS};
 use chetaev_functionals::notation::parse;
 use chetaev_functionals::variation::variation;
 use chetaev_functionals::Problem;
@@ -86,12 +86,7 @@ strain = "e_ij = D_ij"
     };
     let verdict = |yields: &str| {
         let study = studied_text("p4p", &text(yields), &[]);
-        let own = study
-            .verdicts
-            .iter()
-            .find(|d| d.claim == "functional.euler")
-            .unwrap();
-        let verdict = &own.finding.verdict;
+        let verdict = decided(&study, "functional.euler");
         (verdict.word().to_owned(), verdict.detail().to_owned())
     };
     let all = "\"pressure\", \"volume\", \"shear\", \"equilibrium\"";

@@ -1,6 +1,6 @@
 //! Functionals with one mistake are refuted, and mistakes in the text are shown at their place with what to do.
 
-use crate::table::{read_text, row_text, studied_text, ROWS};
+use crate::table::{decided, read_text, row_text, studied_text, ROWS};
 use chetaev_model::Style;
 
 /// The verdict on a row after a replacement in its text; tractions have values on the whole boundary.
@@ -12,8 +12,7 @@ fn mutated(row: &str, claim: &str, from: &str, to: &str) -> (String, String) {
         text.push_str("\n[data]\nPbar = \"vector\"\n");
     }
     let study = studied_text(row, &text, &[("d", "2")]);
-    let found = study.verdicts.iter().find(|d| d.claim == claim).unwrap();
-    let verdict = &found.finding.verdict;
+    let verdict = decided(&study, claim);
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 
@@ -89,12 +88,7 @@ fn a_displacement_that_vanishes_on_a_curved_piece_is_proved() {
             .replace("\"5\"", "\"clamped\"")
             + "\n[equations.clamped]\nequation = \"u_k = 0\"\non = \"S_u\"\n";
         let study = studied_text(row, &text, &[("d", "2")]);
-        let found = study
-            .verdicts
-            .iter()
-            .find(|d| d.claim == "functional.euler")
-            .unwrap();
-        let verdict = &found.finding.verdict;
+        let verdict = decided(&study, "functional.euler");
         assert_eq!(verdict.word(), "proved", "{row}: {}", verdict.detail());
     }
 }
@@ -282,11 +276,7 @@ divergence = "l_i,i = 0"
 "#
     );
     let study = studied_text("p4p", &text, &[]);
-    let own = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.euler");
-    let verdict = &own.unwrap().finding.verdict;
+    let verdict = decided(&study, "functional.euler");
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 

@@ -1,6 +1,6 @@
 //! What is imposed without a multiplier restricts the variations: expected equations by Lagrange's multipliers or by putting in, on paper.
 
-use crate::table::studied_text;
+use crate::table::{decided, studied_text};
 use chetaev_functionals::Study;
 
 /// Two fields on a line; `ends` says what stands at both ends.
@@ -83,11 +83,7 @@ fn a_field_that_is_imposed_is_put_in() {
     ];
     for (density, imposed, stated, word) in cases {
         let study = studied(density, &[stated], &[(imposed, "")], [HELD, HELD]);
-        let own = study
-            .verdicts
-            .iter()
-            .find(|d| d.claim == "functional.euler");
-        let verdict = &own.unwrap().finding.verdict;
+        let verdict = decided(&study, "functional.euler");
         assert_eq!(
             verdict.word(),
             word,
@@ -114,11 +110,7 @@ fn what_is_imposed_on_an_end_is_not_varied_there() {
         &[("u = f", "x = 0")],
         ends,
     );
-    let own = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.euler");
-    let verdict = &own.unwrap().finding.verdict;
+    let verdict = decided(&study, "functional.euler");
     assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
 }
 
@@ -140,11 +132,7 @@ fn a_current_needs_the_multiplier_of_what_is_imposed() {
 /// The verdict on a stated solution.
 fn solution(text: &str) -> (String, String) {
     let study = studied_text("p4p", text, &[]);
-    let own = study
-        .verdicts
-        .iter()
-        .find(|d| d.claim == "functional.solution");
-    let verdict = &own.unwrap().finding.verdict;
+    let verdict = decided(&study, "functional.solution");
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 

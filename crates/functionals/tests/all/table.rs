@@ -2,6 +2,7 @@
 
 use chetaev_functionals::{load, study, Loaded, Problem, Study};
 use chetaev_model::{Files, Style};
+use chetaev_symbolic::Verdict;
 use std::path::PathBuf;
 
 struct Disk;
@@ -51,6 +52,15 @@ pub(crate) fn studied_text(row: &str, text: &str, set: &[(&str, &str)]) -> Study
 /// All claims about a row.
 pub(crate) fn studied(row: &str, set: &[(&str, &str)]) -> Study {
     studied_text(row, &row_text(row), set)
+}
+
+/// The verdict on a claim of a study.
+pub(crate) fn decided<'s>(study: &'s Study, claim: &str) -> &'s Verdict {
+    let found = study.verdicts.iter().find(|d| d.claim == claim);
+    match found {
+        Some(found) => &found.finding.verdict,
+        None => panic!("nothing is said of {claim}"),
+    }
 }
 
 /// The 26 rows.

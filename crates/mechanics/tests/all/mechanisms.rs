@@ -98,14 +98,15 @@ fn closed_chain(count: u64, seed: u64, turns: bool) -> String {
     let mut random = Random(seed.wrapping_mul(7_919).wrapping_add(count));
     let mut text = bodies(count, &mut random);
     text += "[joints]\n";
-    let roots: &[(&str, u64)] = match turns {
-        true => &[("spherical", 3)],
-        false => &[
+    let roots: &[(&str, u64)] = if turns {
+        &[("spherical", 3)]
+    } else {
+        &[
             ("revolute", 1),
             ("universal", 2),
             ("spherical", 3),
             ("planar", 3),
-        ],
+        ]
     };
     let kinds: &[(&str, u64)] = match count {
         4.. => &[("revolute", 1), ("revolute", 1), ("prismatic", 1)],
