@@ -522,9 +522,9 @@ pub(crate) struct Verify {
 pub(crate) struct New {
     /// Folder to create
     pub(crate) folder: PathBuf,
-    /// What the model is stated by
-    #[arg(long, value_enum, default_value = "lagrangian")]
-    pub(crate) from: Beginning,
+    /// What the model is stated by; asked for on a terminal, `lagrangian` elsewhere
+    #[arg(long, value_enum)]
+    pub(crate) from: Option<Beginning>,
 }
 
 #[derive(Args, Debug)]
@@ -547,10 +547,10 @@ pub(crate) struct Import {
 pub(crate) enum Beginning {
     /// Bodies, joints and contacts
     Bodies,
-    /// Fields over space and densities, of which the Euler equations are sought
-    Functional,
     /// Coordinates, energies and constraints
     Lagrangian,
+    /// Fields over space and densities, of which the Euler equations are sought
+    Functional,
 }
 
 #[derive(Args, Debug)]

@@ -141,7 +141,17 @@ pub(crate) fn numbers<'a>(
     attribute: &str,
     count: usize,
 ) -> Result<Option<Vec<&'a str>>, ImportError> {
-    let Some(text) = node.attribute(attribute) else {
+    numbers_of(node, attribute, node.attribute(attribute), count)
+}
+
+/// Numbers of a text that stands for an attribute of an element.
+pub(crate) fn numbers_of<'a>(
+    node: Node<'_, '_>,
+    attribute: &str,
+    text: Option<&'a str>,
+    count: usize,
+) -> Result<Option<Vec<&'a str>>, ImportError> {
+    let Some(text) = text else {
         return Ok(None);
     };
     let all: Vec<&str> = text.split_whitespace().collect();

@@ -3,6 +3,7 @@
 //! `document` reads XML within bounds, `urdf` and `mjcf` take bodies, joints and couplings out of it, `robot` is what both give, and `writing`
 //! makes a model text of it. What is not understood is a [`Note`] with its line; nothing is left out silently.
 
+mod classes;
 mod document;
 mod mjcf;
 mod model_text;

@@ -1,14 +1,16 @@
 //! MuJoCo's format: bodies in bodies, with the joints by which they hang in them.
 //!
 //! A body stands in the one around it at `pos`, turned by `quat`, `euler` or `axisangle`; its joints are at `pos` in its own axes. Angles are degrees
-//! unless `<compiler>` says otherwise. Values that come from classes of defaults, and inertias that follow from geometries alone, are noted.
+//! unless `<compiler>` says otherwise. Joints have the values of their classes of defaults. `<connect>` and `<weld>` close chains as the bodies stand at the
+//! beginning. Inertias that follow from geometries alone are noted.
 
 use std::collections::HashMap;
 
 use roxmltree::Node;
 
+use crate::classes::Classes;
 use crate::document::{note_others, numbers, one, required, three, ImportError};
-use crate::numbers::{of_quaternion, turned, Rotation, STILL};
+use crate::numbers::{after, image, of_quaternion, transposed, turned, Rotation, Vector, STILL};
 use crate::robot::{line, Body, Gear, Joint, Kind, Robot};
 
 /// How angles are written.
@@ -21,12 +23,39 @@ struct Angles {
 /// A body that is to be read, and the one around it.
 type Waiting<'a, 'i> = (Node<'a, 'i>, String);
 
+/// Where a body stands at the beginning, against the ground.
+#[derive(Clone, Copy)]
+struct Stand {
+    at: Vector,
+    axes: Rotation,
+}
+
+const GROUND: Stand = Stand {
+    at: [0.0; 3],
+    axes: STILL,
+};
+
+/// What is known of names: joints by theirs, bodies by theirs with their names in the model, and where each stands by that name.
+struct Known {
+    angles: Angles,
+    classes: Classes,
+    joints: HashMap<String, String>,
+    bodies: HashMap<String, String>,
+    stands: HashMap<String, Stand>,
+}
+
+impl Known {
+    fn stand(&self, name: &str) -> Stand {
+        self.stands.get(name).copied().unwrap_or(GROUND)
+    }
+}
+
 pub(crate) fn read(root: Node<'_, '_>) -> Result<Robot, ImportError> {
     let mut robot = Robot::new(root.attribute("model"), "MJCF");
     note_others(
         &mut robot,
         root,
-        &["worldbody", "compiler", "option", "equality"],
+        &["worldbody", "compiler", "option", "equality", "default"],
     );
     let mut angles = Angles {
         unit: std::f64::consts::PI / 180.0,
@@ -43,7 +72,14 @@ pub(crate) fn read(root: Node<'_, '_>) -> Result<Robot, ImportError> {
             _ => {}
         }
     }
-    let mut joints = HashMap::new();
+    let classes = Classes::read(&mut robot, root);
+    let mut known = Known {
+        angles,
+        classes,
+        joints: HashMap::new(),
+        bodies: HashMap::from([("world".to_owned(), "ground".to_owned())]),
+        stands: HashMap::new(),
+    };
     let worlds = root.children().filter(|own| own.has_tag_name("worldbody"));
     let mut open: Vec<Waiting<'_, '_>> = Vec::new();
     for world in worlds {
@@ -51,14 +87,15 @@ pub(crate) fn read(root: Node<'_, '_>) -> Result<Robot, ImportError> {
         push(&mut open, world, "ground");
     }
     while let Some((node, parent)) = open.pop() {
-        let name = body(&mut robot, (node, parent), angles, &mut joints)?;
+        let name = body(&mut robot, (node, parent), &mut known)?;
         push(&mut open, node, &name);
     }
     if robot.bodies.is_empty() {
         return Err(ImportError::Empty);
     }
     for equality in root.children().filter(|own| own.has_tag_name("equality")) {
-        couple(&mut robot, equality, &joints)?;
+        couple(&mut robot, equality, &known.joints)?;
+        close(&mut robot, equality, &known)?;
     }
     Ok(robot)
 }
@@ -112,20 +149,31 @@ fn rotation(node: Node<'_, '_>, angles: Angles) -> Result<Rotation, ImportError>
 fn body(
     robot: &mut Robot,
     (node, parent): Waiting<'_, '_>,
-    angles: Angles,
-    joints: &mut HashMap<String, String>,
+    known: &mut Known,
 ) -> Result<String, ImportError> {
+    let angles = known.angles;
     note_others(robot, node, &["body", "inertial", "joint", "freejoint"]);
-    for key in ["xyaxes", "zaxis", "childclass"] {
+    for key in ["xyaxes", "zaxis"] {
         if node.attribute(key).is_some() {
             robot.note(node, format!("`{key}` of <body> is not taken over"));
         }
     }
     let wished = node.attribute("name").unwrap_or("body").to_owned();
     let name = robot.name(&wished, node);
+    let stated = node.attribute("name");
+    known
+        .bodies
+        .extend(stated.map(|stated| (stated.to_owned(), name.clone())));
     let own = inertial(robot, node, name.clone(), angles)?;
     let at = three(node, "pos")?.unwrap_or_default();
     let turned = rotation(node, angles)?;
+    let around = known.stand(&parent);
+    let moved = image(&around.axes, at);
+    let stand = Stand {
+        at: std::array::from_fn(|i| around.at[i] + moved[i]),
+        axes: after(&around.axes, &turned),
+    };
+    known.stands.insert(name.clone(), stand);
     let all: Vec<_> = node
         .children()
         .filter(|own| own.has_tag_name("joint") || own.has_tag_name("freejoint"))
@@ -150,9 +198,9 @@ fn body(
             });
             between
         };
-        let mut joint = joint(robot, node, (parent, child.clone()), angles, joints)?;
+        let mut joint = joint(robot, node, (parent, child.clone()), known)?;
         let (at, turned) = place.take().unwrap_or(([0.0; 3], STILL));
-        let moved = crate::numbers::image(&turned, joint.child_at);
+        let moved = image(&turned, joint.child_at);
         joint.at = std::array::from_fn(|i| at[i] + moved[i]);
         joint.rotation = turned;
         robot.add_joint(joint, node);
@@ -197,10 +245,9 @@ fn joint(
     robot: &mut Robot,
     node: Node<'_, '_>,
     (parent, child): (String, String),
-    angles: Angles,
-    joints: &mut HashMap<String, String>,
+    known: &mut Known,
 ) -> Result<Joint, ImportError> {
-    let known = [
+    let read = [
         "name",
         "type",
         "pos",
@@ -210,14 +257,18 @@ fn joint(
         "damping",
         "stiffness",
         "springref",
+        "class",
     ];
-    crate::document::note_attributes(robot, node, &known);
+    crate::document::note_attributes(robot, node, &read);
+    let (angles, classes) = (known.angles, &known.classes);
     let stated = node.attribute("name");
     let name = robot.name(stated.unwrap_or(&format!("{child}_joint")), node);
-    joints.extend(stated.map(|stated| (stated.to_owned(), name.clone())));
+    known
+        .joints
+        .extend(stated.map(|stated| (stated.to_owned(), name.clone())));
     let kind = match (
         node.has_tag_name("freejoint"),
-        node.attribute("type").unwrap_or("hinge"),
+        classes.attribute(node, "type").unwrap_or("hinge"),
     ) {
         (true, _) | (_, "free") => Kind::Free,
         (_, "slide") => Kind::Prismatic,
@@ -226,19 +277,23 @@ fn joint(
     };
     let mut joint = Joint::fixed(name, parent, child);
     joint.kind = kind;
-    joint.child_at = three(node, "pos")?.unwrap_or_default();
-    joint.axis = three(node, "axis")?.unwrap_or([0.0, 0.0, 1.0]);
-    joint.damping = one(node, "damping")?.unwrap_or(0.0);
+    joint.child_at = classes.three(node, "pos")?.unwrap_or_default();
+    joint.axis = classes.three(node, "axis")?.unwrap_or([0.0, 0.0, 1.0]);
+    joint.damping = classes.one(node, "damping")?.unwrap_or(0.0);
     let unit = match kind {
         Kind::Revolute => angles.unit,
         _ => 1.0,
     };
-    if let Some(stiffness) = one(node, "stiffness")?.filter(|own| *own != 0.0) {
-        joint.spring = Some([stiffness, unit * one(node, "springref")?.unwrap_or(0.0)]);
+    if let Some(stiffness) = classes.one(node, "stiffness")?.filter(|own| *own != 0.0) {
+        joint.spring = Some([
+            stiffness,
+            unit * classes.one(node, "springref")?.unwrap_or(0.0),
+        ]);
     }
-    if let Some(range) = numbers(node, "range", 2)? {
-        let mut values = range.iter().filter_map(|text| text.parse::<f64>().ok());
-        let [least, most] = std::array::from_fn(|_| unit * values.next().unwrap_or(0.0));
+    let range = classes.numbers(node, "range", 2)?;
+    let is_limited = classes.attribute(node, "limited") != Some("false");
+    if let Some(range) = range.filter(|_| is_limited) {
+        let [least, most] = std::array::from_fn(|i| unit * range.get(i).copied().unwrap_or(0.0));
         if least <= 0.0 && 0.0 <= most && least < most {
             joint.limits = Some([least, most]);
         } else {
@@ -258,7 +313,7 @@ fn couple(
     equality: Node<'_, '_>,
     joints: &HashMap<String, String>,
 ) -> Result<(), ImportError> {
-    note_others(robot, equality, &["joint"]);
+    note_others(robot, equality, &["joint", "connect", "weld"]);
     for node in equality.children().filter(|own| own.has_tag_name("joint")) {
         let stated = required(node, "joint1")?;
         let of = |stated: &str| joints.get(stated).cloned();
@@ -296,4 +351,86 @@ fn couple(
         });
     }
     Ok(())
+}
+
+/// `<connect>` and `<weld>`: chains that are closed where the bodies stand at the beginning. MuJoCo's are a little soft; these are not.
+fn close(robot: &mut Robot, equality: Node<'_, '_>, known: &Known) -> Result<(), ImportError> {
+    let is_closing = |own: &Node<'_, '_>| own.has_tag_name("connect") || own.has_tag_name("weld");
+    for node in equality.children().filter(is_closing) {
+        if node.attribute("active") == Some("false") {
+            robot.note(
+                node,
+                "a constraint that is not active is not taken over".to_owned(),
+            );
+            continue;
+        }
+        let read = ["name", "class", "active", "body1", "body2", "anchor"];
+        crate::document::note_attributes(robot, node, &read);
+        if node.attribute("body1").is_none() {
+            robot.note(
+                node,
+                "a constraint between sites is not taken over".to_owned(),
+            );
+            continue;
+        }
+        let first = body_of(node, required(node, "body1")?, known)?;
+        let second = body_of(node, node.attribute("body2").unwrap_or("world"), known)?;
+        let anchor = three(node, "anchor")?.unwrap_or_default();
+        let is_weld = node.has_tag_name("weld");
+        // The anchor of a weld is a point of the second body, that of a connection one of the first.
+        let stands = [&first, &second].map(|name| known.stand(name));
+        let [own, other] = if is_weld {
+            [stands[1], stands[0]]
+        } else {
+            stands
+        };
+        let turned = image(&own.axes, anchor);
+        let apart: Vector = std::array::from_fn(|i| own.at[i] + turned[i] - other.at[i]);
+        let opposite = image(&transposed(&other.axes), apart);
+        let [at, child_at] = if is_weld {
+            [opposite, anchor]
+        } else {
+            [anchor, opposite]
+        };
+        let wished = node
+            .attribute("name")
+            .unwrap_or(if is_weld { "weld" } else { "connect" });
+        let name = robot.name(wished, node);
+        let mut joint = Joint::fixed(name, first, second);
+        (joint.at, joint.child_at) = (at, child_at);
+        match is_weld {
+            true => joint.rotation = after(&transposed(&stands[0].axes), &stands[1].axes),
+            false => joint.kind = Kind::Spherical,
+        }
+        if joint.child == "ground" {
+            joint = turned_round(joint);
+        }
+        robot.joints.push(joint);
+    }
+    Ok(())
+}
+
+/// The same joint with the ground as the parent.
+fn turned_round(joint: Joint) -> Joint {
+    let back = transposed(&joint.rotation);
+    Joint {
+        parent: joint.child,
+        child: joint.parent,
+        at: joint.child_at,
+        child_at: joint.at,
+        rotation: back,
+        ..joint
+    }
+}
+
+fn body_of(node: Node<'_, '_>, stated: &str, known: &Known) -> Result<String, ImportError> {
+    known
+        .bodies
+        .get(stated)
+        .cloned()
+        .ok_or_else(|| ImportError::Missing {
+            line: line(node),
+            element: node.tag_name().name().to_owned(),
+            missing: format!("body `{stated}`"),
+        })
 }

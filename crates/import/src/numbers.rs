@@ -75,6 +75,17 @@ pub(crate) fn image(rotation: &Rotation, v: Vector) -> Vector {
     rotation.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
+/// One rotation after another: v in the axes before both.
+pub(crate) fn after(first: &Rotation, second: &Rotation) -> Rotation {
+    let columns = transposed(second);
+    first.map(|row| columns.map(|column| (0..3).map(|i| row[i] * column[i]).sum()))
+}
+
+/// The rotation backwards.
+pub(crate) fn transposed(rotation: &Rotation) -> Rotation {
+    std::array::from_fn(|i| std::array::from_fn(|j| rotation[j][i]))
+}
+
 /// The coordinate axis that a direction is, 0, 1 or 2, and whether it points backwards.
 pub(crate) fn coordinate_axis(v: Vector) -> Option<(usize, bool)> {
     let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -259,23 +259,27 @@ fn replaced(model: &str, line: &str) -> String {
     own.collect::<Vec<_>>().join("\n")
 }
 
-/// The chapter on functionals: every whole model is studied, every single line is put into the model before it, in the place of the one that has the same key,
-/// and what is printed stands beside it, line for line.
-#[test]
-fn functionals_of_the_book_give_what_stands_beside_them() {
-    let page = read(&book().join("functionals.md"));
-    let folder = chetaev_tests::places::scratch("book-functionals");
+/// What stands on a page: whole models, fragments, and how many outputs of commands were compared.
+#[derive(Default)]
+struct Told {
+    whole: Vec<String>,
+    fragments: Vec<String>,
+    outputs: usize,
+}
+
+/// Runs the commands of a page: every whole model, which begins with `first`, is written to `model.toml`, every single line is put into the model before it, in
+/// the place of the one that has the same key, and what is printed stands beside it, line for line.
+fn told(page: &str, first: &str, folder: &Path) -> Told {
     let model = folder.join("model.toml");
-    let (mut whole, mut last): (Vec<String>, Option<String>) = (Vec::new(), None);
-    let (mut count, mut fragments) = (0, Vec::new());
-    for (language, text) in blocks(&page) {
+    let (mut told, mut last) = (Told::default(), None);
+    for (language, text) in blocks(page) {
         match language {
-            "toml" if text.starts_with("kind = ") => {
-                whole.push(text.to_owned());
+            "toml" if text.starts_with(first) => {
+                told.whole.push(text.to_owned());
                 last = Some(text.to_owned());
             }
             "toml" if text.lines().count() == 1 => {
-                let before = whole.last().expect("a model before it");
+                let before = told.whole.last().expect("a model before it");
                 last = Some(replaced(before, text.trim_end()));
             }
             "text" => {
@@ -284,30 +288,74 @@ fn functionals_of_the_book_give_what_stands_beside_them() {
                 let own = last.as_ref().expect("a model before it");
                 std::fs::write(&model, own).expect("a scratch file");
                 let finished = chetaev_tests::program::run_in(
-                    &folder,
+                    folder,
                     &command.split_whitespace().collect::<Vec<_>>(),
                 );
                 let all = finished.both();
                 let mut printed = all.lines();
                 for line in output.lines().filter(|line| *line != "…") {
                     assert!(
-                        printed.any(|own| own.trim_end() == line.trim_end()),
+                        printed.any(|own| is_as_shown(own, line)),
                         "`{line}` is not printed there by {command}\n{all}"
                     );
                 }
-                count += 1;
+                told.outputs += 1;
             }
-            "toml" => fragments.push(text.to_owned()),
+            "toml" => told.fragments.push(text.to_owned()),
             _ => {}
         }
     }
-    assert_eq!((whole.len(), count), (2, 7));
+    told
+}
+
+/// Whether a line is the one shown, or begins with it where it is a verdict with its reasons.
+fn is_as_shown(line: &str, shown: &str) -> bool {
+    let (line, shown) = (line.trim_end(), shown.trim_end());
+    line == shown || (shown.ends_with(" proved") && line.starts_with(shown))
+}
+
+/// The chapter for beginners: its models, what is printed of them, and its picture.
+#[test]
+fn the_wheel_of_the_book_has_the_equations_that_stand_beside_it() {
+    let page = read(&book().join("from-a-wheel-to-its-equations.md"));
+    let folder = chetaev_tests::places::scratch("book-wheel");
+    let told = told(&page, "name = ", &folder);
+    assert_eq!((told.whole.len(), told.outputs), (2, 5));
+    let drawn = chetaev_tests::program::run_in(
+        &folder,
+        &[
+            "plot",
+            "model.toml",
+            "--ghosts",
+            "5",
+            "--width",
+            "640",
+            "--out",
+            "leaning.svg",
+        ],
+    );
+    assert_eq!(drawn.status, Some(0), "{}", drawn.both());
+    let stored = book().join("from-a-wheel/leaning.svg");
+    let own = read(&folder.join("leaning.svg"));
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&stored, &own).expect("the picture of the book");
+    }
+    assert_eq!(own, read(&stored), "UPDATE=1 draws the picture again");
+}
+
+/// The chapter on functionals.
+#[test]
+fn functionals_of_the_book_give_what_stands_beside_them() {
+    let page = read(&book().join("functionals.md"));
+    let folder = chetaev_tests::places::scratch("book-functionals");
+    let told = told(&page, "kind = ", &folder);
+    assert_eq!((told.whole.len(), told.outputs), (2, 7));
     // Fragments are those of models of the gallery.
     let gallery: Vec<String> = ["bar", "loaded-membrane"]
         .iter()
         .map(|name| read(&root().join(format!("gallery/fields/{name}/model.toml"))))
         .collect();
-    for line in fragments.iter().flat_map(|text| text.lines()) {
+    for line in told.fragments.iter().flat_map(|text| text.lines()) {
         let line = line
             .trim_start_matches("fields = { ")
             .trim_end_matches(" }");

@@ -74,3 +74,102 @@ fn a_cart_with_a_pole_has_its_energies() {
         );
     }
 }
+
+const LOOP: &str = r#"
+<mujoco model="loop">
+  <compiler angle="radian"/>
+  <default>
+    <joint axis="0 1 0" damping="0.2"/>
+    <geom rgba="1 0 0 1"/>
+    <default class="stiff"><joint stiffness="7" springref="0.1"/></default>
+  </default>
+  <worldbody>
+    <body name="crank" pos="0 0 1" childclass="stiff">
+      <joint name="a"/>
+      <inertial pos="0.5 0 0" mass="2" diaginertia="0.1 0.1 0.1"/>
+      <body name="rod" pos="1 0 0" euler="0 0 0.5">
+        <joint name="b" class="main" damping="0.3"/>
+        <inertial pos="0.2 0 0" mass="1" diaginertia="0.1 0.2 0.3"/>
+      </body>
+    </body>
+    <body name="slab" pos="0 2 0" euler="0.3 0 0">
+      <freejoint/>
+      <inertial pos="0 0 0" mass="1" diaginertia="0.1 0.2 0.3"/>
+    </body>
+  </worldbody>
+  <equality>
+    <connect body1="rod" anchor="0.4 0 0"/>
+    <weld body1="crank" body2="slab"/>
+    <connect body1="rod" body2="slab" anchor="0 0 0" active="false"/>
+  </equality>
+</mujoco>
+"#;
+
+/// Joints have what their classes say, and the two constraints hold as the bodies stand, and no longer where they are moved.
+#[test]
+fn classes_and_closed_chains_are_taken_over() {
+    let (imported, model) = model(LOOP);
+    // The slab begins at zero in its own frame.
+    let value_at = |moved: &[(&str, f64)], e| {
+        let still = model.coordinates.iter().map(|own| (own.name.as_str(), 0.0));
+        let stated = moved.iter().copied();
+        let state: Vec<(&str, f64)> = stated.chain(still).collect();
+        value(&model, e, &state)
+    };
+    let at = |moved: &[(&str, f64)], name: &str| {
+        let own = model.constraints.iter().find(|own| own.name == name);
+        value_at(moved, own.expect("a constraint of that name").f)
+    };
+    let closed: Vec<_> = model
+        .constraints
+        .iter()
+        .filter(|own| own.name.starts_with("connect") || own.name.starts_with("weld"))
+        .collect();
+    assert_eq!(closed.len(), 9, "{}", imported.text);
+    for own in &closed {
+        let zero = value_at(&[], own.f);
+        assert!(
+            zero.abs() < 1e-12,
+            "{} = {zero}\n{}",
+            own.name,
+            imported.text
+        );
+    }
+    // The end of the rod is at (1, 0, 1) + Rz(1/2) (0.4, 0, 0); the crank by an angle q about y takes all of it along.
+    let q: f64 = 0.3;
+    let (x, z) = (1.0 + 0.4 * 0.5_f64.cos(), 0.0);
+    let expected = [x * q.cos() - x, 0.0, -x * q.sin() - z];
+    for (axis, expected) in ["x", "y", "z"].into_iter().zip(expected) {
+        let found = at(&[("a", q)], &format!("connect_{axis}"));
+        assert!(
+            (found.abs() - expected.abs()).abs() < 1e-12,
+            "{axis}: {found}, not {expected}"
+        );
+    }
+    // The weld holds the slab where it is beside the crank.
+    let moved = at(&[("slab_joint_y", 0.5)], "weld_z");
+    assert!((moved.abs() - 0.5 * 0.3_f64.sin()).abs() < 1e-12, "{moved}");
+    for line in ["stiffness = 7, rest = 0.1", "damper = 0.2", "damper = 0.3"] {
+        assert!(imported.text.contains(line), "{line}\n{}", imported.text);
+    }
+    let rod = imported.text.lines().find(|line| line.starts_with("b = "));
+    assert!(
+        !rod.expect("the joint").contains("spring"),
+        "{}",
+        imported.text
+    );
+    for word in ["<geom>", "not active"] {
+        assert!(
+            imported.notes.iter().any(|own| own.message.contains(word)),
+            "{word}: {:?}",
+            imported.notes
+        );
+    }
+}
+
+#[test]
+fn a_chain_that_names_no_body_is_refused() {
+    let text = LOOP.replace("body2=\"slab\"/>", "body2=\"slap\"/>");
+    let refused = chetaev_import::import(&text).expect_err("there is no such body");
+    assert!(refused.to_string().contains("body `slap`"), "{refused}");
+}

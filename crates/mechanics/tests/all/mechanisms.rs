@@ -78,8 +78,9 @@ impl Random {
 fn bodies(count: u64, random: &mut Random) -> String {
     let mut text = "[bodies]\n".to_owned();
     for i in 0..count {
-        // Second moments are positive, so that the inertia is that of a body.
-        let [p, q, r] = [0; 3].map(|_| (1 + random.below(9)) as f64 / 10.0);
+        // Second moments are positive, so that the inertia is that of a body, and different, so that it is that of no ball, which has no gyroscopic term.
+        let steps = [0; 3].map(|_| (1 + random.below(4)) as f64 / 10.0);
+        let [p, q, r] = [steps[0], steps[0] + steps[1], steps.iter().sum()];
         let (mass, center, x, z) = (
             random.positive(),
             random.vector(),

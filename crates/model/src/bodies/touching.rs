@@ -54,7 +54,8 @@ impl<'r> Lowering<'r> {
         };
         let place = object.place;
         let name = object.name().to_owned();
-        if object.get("surface").is_some() || figure.outline == Outline::Stated {
+        let is_own = matches!(figure.outline, Outline::Stated | Outline::Tapered);
+        if object.get("surface").is_some() || is_own {
             let curved = self.on_ground(contact, &figure, [plane, body]);
             return self.touch_curved(contact, curved);
         }
@@ -78,6 +79,17 @@ impl<'r> Lowering<'r> {
         frames: [FrameId; 2],
     ) -> Option<Curved> {
         let ground = self.ground_of(contact)?;
+        if let Some(radius) = figure.lengths.first() {
+            let object = &contact.object;
+            if self.algebra.graph.is_zero(*radius) {
+                let message = format!("the radius of {} is zero", object.words());
+                let problem = Diagnostic::error("not-allowed-here", object.place, message);
+                self.problems
+                    .push(problem.hint("a point of the body is stated by `at` alone"));
+                return None;
+            }
+            self.assume_positive(*radius, object.place);
+        }
         let [plane, body] = frames;
         let ball = Ball {
             body,

@@ -468,6 +468,12 @@ fn surfaces_that_make_no_sense_are_refused() {
             "contains none of its coordinates",
         ),
         (
+            "radius = \"r\", surface = { shape = \"sphere\", radius = \"R\", inside = true }",
+            "radius = \"r\", taper = 0.1",
+            "along a line",
+        ),
+        ("radius = \"r\", surface", "radius = 0, surface", "is zero"),
+        (
             "shape = \"sphere\", radius = \"R\", inside = true",
             "curve = [1, 0, 2]",
             "does not depend on its coordinate",
