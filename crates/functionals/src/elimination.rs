@@ -18,6 +18,7 @@
 use crate::boundary::CURVATURE;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
@@ -66,6 +67,8 @@ pub struct Solved<'s> {
     pub pivots: Vec<String>,
     /// Functions undone by their conjugates.
     pub inverted: BTreeSet<String>,
+    /// Expressions in parameters and data that were divided by.
+    pub nonzero: BTreeSet<String>,
 }
 
 /// A jet with its value.
@@ -111,6 +114,15 @@ struct Choice {
     is_constant: bool,
 }
 
+/// A group of equations in which the gradient of a function was undone by its conjugate.
+struct Undone {
+    group: usize,
+    equations: Vec<Expr>,
+    function: String,
+    /// What stood before the gradient.
+    matrix: Vec<Vec<Expr>>,
+}
+
 /// How dear a way is: its class, whether another tensor is preferred, whether components stay open, how hard the solution is,
 /// and the place of the group.
 type Cost = (u8, bool, bool, u8, usize);
@@ -130,6 +142,9 @@ const MOST_POINTS: usize = 4;
 
 /// So many products one after the other are taken apart.
 const MOST_PRODUCTS: usize = 4;
+
+/// Determinants of matrices with more rows are not written out.
+const LARGEST_DETERMINANT: usize = 3;
 
 /// Most rounds; each solves one group or changes its form.
 const MOST_ROUNDS: usize = 200;
@@ -159,6 +174,7 @@ impl<'s> Solved<'s> {
             left: Vec::new(),
             pivots: Vec::new(),
             inverted: BTreeSet::new(),
+            nonzero: BTreeSet::new(),
         }
     }
 
@@ -669,10 +685,12 @@ impl<'s> Solved<'s> {
                 _ => self.conjugated(&undone),
             };
             match (conjugate, best) {
-                (Some((group, equations, name)), _) => {
-                    undone.insert((self.left[group].label.clone(), name.clone()));
-                    self.inverted.insert(name);
-                    self.left[group].equations = equations;
+                (Some(own), _) => {
+                    let label = self.left[own.group].label.clone();
+                    undone.insert((label, own.function.clone()));
+                    self.note_nonzero(&own.matrix, None);
+                    self.inverted.insert(own.function);
+                    self.left[own.group].equations = own.equations;
                 }
                 (None, Some(choice)) => {
                     if !self.adopt(choice) {
@@ -984,6 +1002,9 @@ impl<'s> Solved<'s> {
         let Some(values) = self.solution(&choice.matrix, &choice.rest) else {
             return false;
         };
+        if let (true, Some(jet)) = (choice.is_constant, choice.jets.first()) {
+            self.note_nonzero(&choice.matrix, Some(jet.component));
+        }
         if !choice.is_constant {
             if let Some(jet) = choice.jets.first() {
                 let tensor = self.space.component_at(jet.component).tensor;
@@ -1007,10 +1028,7 @@ impl<'s> Solved<'s> {
     }
 
     /// `B'(Y) = X` as `Y = A'(X)` in a group that was not changed yet.
-    fn conjugated(
-        &self,
-        undone: &BTreeSet<(String, String)>,
-    ) -> Option<(usize, Vec<Expr>, String)> {
+    fn conjugated(&self, undone: &BTreeSet<(String, String)>) -> Option<Undone> {
         let space = self.space;
         let g = &space.graph;
         for (at, group) in self.left.iter().enumerate() {
@@ -1059,24 +1077,79 @@ impl<'s> Solved<'s> {
                     .zip(image)
                     .map(|(&y, a)| g.sub(y, a))
                     .collect();
-                return Some((at, equations, own.name));
+                return Some(Undone {
+                    group: at,
+                    equations,
+                    function: own.name,
+                    matrix,
+                });
             }
         }
         None
     }
 
-    /// How many components of a tensor have values or not: those that no rule gives although they occur in `es`.
-    pub fn free_components(&self, components: &[usize]) -> Vec<usize> {
-        let has_rule = |c: &usize| {
-            self.rules
-                .iter()
-                .any(|rule| rule.jet.component == *c && rule.jet.by.is_empty())
+    /// How many components of a tensor may be changed by any functions, all else being kept, so that expressions keep their values
+    /// where the equations hold: the components less the rank of the slopes by all their jets. `None` where the rank is not known.
+    pub fn free_components(&self, components: &[usize], es: &[Expr]) -> Option<usize> {
+        let space = self.space;
+        let jets = space.jets_in(es);
+        let own: BTreeSet<Vec<usize>> = jets
+            .into_iter()
+            .filter(|jet| components.contains(&jet.component))
+            .map(|jet| jet.by)
+            .collect();
+        let mut matrix = Vec::new();
+        for &e in es {
+            for by in &own {
+                let slope = |&component: &usize| {
+                    let by = by.clone();
+                    self.normal(space.partial(e, &Jet { component, by }))
+                };
+                matrix.push(components.iter().map(slope).collect::<Vec<Expr>>());
+            }
+        }
+        if matrix.is_empty() {
+            return Some(components.len());
+        }
+        Some(components.len() - self.pivots_of(&matrix)?.columns.len())
+    }
+
+    /// What must not vanish so that a matrix without fields is regular: the factors of its determinant in which something occurs that
+    /// has no value. A large matrix is named by what was solved for.
+    fn note_nonzero(&mut self, matrix: &[Vec<Expr>], component: Option<usize>) {
+        let g = &self.space.graph;
+        let symbols = g.symbols_in(&matrix.concat());
+        if symbols.is_empty() {
+            return;
+        }
+        let entry = |i: usize, j: usize| matrix.get(i).and_then(|row| row.get(j));
+        let size = matrix.len();
+        let is_diagonal = (0..size)
+            .all(|i| (0..size).all(|j| i == j || entry(i, j).is_some_and(|&e| g.is_zero(e))));
+        let divisors: Vec<Expr> = if is_diagonal {
+            (0..size).filter_map(|i| entry(i, i).copied()).collect()
+        } else if size <= LARGEST_DETERMINANT {
+            vec![determinant(g, matrix)]
+        } else {
+            let tensor = component.map(|c| self.space.component_at(c).tensor);
+            if let Some(tensor) = tensor.filter(|tensor| !self.pivots.contains(tensor)) {
+                self.pivots.push(tensor);
+            }
+            return;
         };
-        components
-            .iter()
-            .copied()
-            .filter(|c| !has_rule(c))
-            .collect()
+        let divisors: BTreeSet<Expr> = divisors.into_iter().collect();
+        let assumptions = Assumptions::new();
+        for divisor in divisors {
+            let factors = chetaev_symbolic::factors::factors(g, divisor, &symbols);
+            let factors = factors.unwrap_or_else(|| vec![(divisor, 1)]);
+            for (factor, _) in factors {
+                let is_open = g.as_number(factor).is_none()
+                    && !known_sign(g, factor, &assumptions).is_nonzero();
+                if is_open {
+                    self.nonzero.insert(g.text(factor));
+                }
+            }
+        }
     }
 }
 

@@ -23,26 +23,28 @@ impl Admission {
         if functional.with_role(Role::Imposed).next().is_none() {
             return own;
         }
-        let inside = own.extended(Solved::new(&functional.space), functional, None);
+        let inside = own.extended(Solved::new(&functional.space), functional, &[]);
         own.restricted(functional, &inside);
         for (at, piece) in functional.pieces.iter().enumerate() {
-            let here = own.extended(inside.clone(), functional, Some(piece));
+            let here = own.extended(inside.clone(), functional, &[piece]);
             for other in &functional.pieces[at + 1..] {
                 if piece.meets(other) && own.none.is_none() {
-                    let _ = own.extended(here.clone(), functional, Some(other));
+                    let _ = own.extended(here.clone(), functional, &[piece, other]);
                 }
             }
         }
         own
     }
 
-    /// The equations of a place solved with those known, one after the other.
+    /// The equations of a place solved with those known, one after the other: of the interior, of a piece, or where two pieces meet,
+    /// of the second. What follows from the others there only is not said twice.
     fn extended<'f>(
         &mut self,
         solved: Solved<'f>,
         functional: &'f Functional,
-        piece: Option<&Piece>,
+        place: &[&Piece],
     ) -> Solved<'f> {
+        let piece = place.last().copied();
         let name = piece.map(|piece| piece.name.as_str());
         let stated = functional.with_role(Role::Imposed);
         let here = stated.filter(|e| e.on.as_deref() == name);
@@ -59,7 +61,8 @@ impl Admission {
         for (count, group) in groups.iter().enumerate() {
             let is_trivial = functional.space.vanish(&group.equations);
             let is_first = count == 0 && piece.is_none();
-            if !is_trivial && !is_first && known.follows(&group.equations) {
+            let is_everywhere = place.len() < 2;
+            if is_everywhere && !is_trivial && !is_first && known.follows(&group.equations) {
                 let label = group.label.trim_matches(['(', ')']).to_owned();
                 if !self.redundant.contains(&label) {
                     self.redundant.push(label);
@@ -71,7 +74,11 @@ impl Admission {
         }
         let all = with(&solved, piece, &groups);
         if let (None, Some((label, left))) = (&self.none, all.contradiction()) {
-            let place = name.map_or(String::new(), |name| format!(" on {name}"));
+            let place = match place {
+                [] => String::new(),
+                [piece] => format!(" on {}", piece.name),
+                [one, other, ..] => format!(" where {} and {} meet", one.name, other.name),
+            };
             let text = functional.space.graph.text(left);
             self.none = Some(format!(
                 "no field satisfies what is imposed{place}: with the rest {label} says {text} = 0, which is never so"

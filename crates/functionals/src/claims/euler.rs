@@ -174,6 +174,7 @@ impl<'f> Comparison<'f> {
         let mut judged = Vec::new();
         let mut pivots: BTreeSet<String> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
+        let mut nonzero: BTreeSet<String> = BTreeSet::new();
         for equation in self
             .functional
             .with_role(Role::Yielded)
@@ -192,6 +193,7 @@ impl<'f> Comparison<'f> {
         let mut notes = |solved: &Solved<'_>| {
             pivots.extend(solved.pivots.iter().cloned());
             inverted.extend(solved.inverted.iter().cloned());
+            nonzero.extend(solved.nonzero.iter().cloned());
         };
         notes(&self.derived);
         notes(&self.stated);
@@ -202,7 +204,7 @@ impl<'f> Comparison<'f> {
         }
         self.edges(&mut judged);
         self.corners(&mut judged);
-        self.joined(judged, &pivots, &inverted)
+        where_nonzero(self.joined(judged, &pivots, &inverted), &nonzero)
     }
 
     /// Where two faces meet: the conditions there, both ways.
@@ -524,8 +526,16 @@ impl<'f> Comparison<'f> {
         let algebraic = functional
             .interior()
             .filter(|f| is_algebraic(&f.components));
+        let euler = self.variation.euler.iter().map(|(_, value)| *value);
+        let imposed = functional
+            .with_role(Role::Imposed)
+            .filter(|e| e.on.is_none())
+            .flat_map(|e| e.residuals.iter().copied());
+        let equations: Vec<Expr> = euler.chain(imposed).collect();
         let found = algebraic.filter_map(|field| {
-            let free = self.derived.free_components(&field.components).len();
+            let free = self
+                .derived
+                .free_components(&field.components, &equations)?;
             (free > 0).then(|| {
                 let all = field.components.len();
                 format!(
@@ -723,13 +733,27 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<Stri
     g.reachable(es).into_iter().filter_map(condition).collect()
 }
 
+/// A proof that divides by something without a value holds where that does not vanish.
+fn where_nonzero(verdict: Verdict, nonzero: &BTreeSet<String>) -> Verdict {
+    match verdict {
+        Verdict::Proved(mut proof) if !nonzero.is_empty() => {
+            let all: Vec<String> = nonzero.iter().map(|e| format!("{e} ≠ 0")).collect();
+            let said = format!(", where {}", all.join(" and "));
+            proof.on.push_str(&said);
+            proof.detail.push_str(&said);
+            Verdict::Proved(proof)
+        }
+        other => other,
+    }
+}
+
 /// Where a proof holds.
 fn on(pivots: &BTreeSet<String>, inverted: &BTreeSet<String>) -> String {
     let mut place = String::from("all jets");
     if !pivots.is_empty() {
         let names: Vec<&str> = pivots.iter().map(String::as_str).collect();
         place.push_str(&format!(
-            " at which the equations can be solved for {}, whose coefficients depend on the fields or the normal",
+            " at which the equations can be solved for {}, whose coefficients depend on the fields, the normal or parameters",
             names.join(", ")
         ));
     }

@@ -6,6 +6,7 @@ use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
 use crate::read::on_side;
+use crate::space::Space;
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{rational, Expr, Symbol, Verdict};
@@ -64,6 +65,21 @@ impl Claim for Stated {
     }
 }
 
+/// Values put in for fields with their derivatives, data and parameters.
+fn put(space: &Space, pairs: &[(Expr, Expr)], e: Expr) -> Expr {
+    let value = |own: Expr| pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r);
+    space.replace(
+        space.explicit(e),
+        &|symbol: Symbol| match space.as_jet(symbol) {
+            Some(jet) => {
+                let value = value(space.jet(jet.component, &[]))?;
+                Some(space.totals(value, &jet.by))
+            }
+            None => value(space.graph.symbol_expr(symbol)),
+        },
+    )
+}
+
 struct Inserted<'f> {
     functional: &'f Functional,
     solution: &'f Solution,
@@ -76,6 +92,11 @@ impl Inserted<'_> {
             return Verdict::undecided(format!(
                 "where {piece} lies is not stated, so that the conditions on it were not looked at: [solutions.{}.pieces] says it, on the box of its intervals",
                 self.solution.name
+            ));
+        }
+        if let Some(name) = self.circular() {
+            return Verdict::undecided(format!(
+                "the stated value of {name} needs itself, so that it is none"
             ));
         }
         for (what, e) in self.residuals(variation) {
@@ -117,26 +138,35 @@ impl Inserted<'_> {
         let functions: Vec<Special> = self.some(|s| matches!(s.what, SpecialKind::Function { .. }));
         let space = &*self.functional.space;
         let e = put_in(self.functional, &functions, e);
-        let pairs: Vec<(Expr, Expr)> = self
-            .solution
-            .values
-            .iter()
-            .filter_map(|special| match &special.what {
-                SpecialKind::Symbols(pairs) => Some(pairs.clone()),
-                SpecialKind::Function { .. } => None,
-            })
-            .flatten()
-            .collect();
-        space.replace(space.explicit(e), &|symbol: Symbol| {
-            let value = |own: Expr| pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r);
-            match space.as_jet(symbol) {
-                Some(jet) => {
-                    let value = value(space.jet(jet.component, &[]))?;
-                    Some(space.totals(value, &jet.by))
-                }
-                None => value(space.graph.symbol_expr(symbol)),
+        put(space, &self.pairs(), e)
+    }
+
+    /// The stated values with each other put in.
+    fn pairs(&self) -> Vec<(Expr, Expr)> {
+        let space = &*self.functional.space;
+        let own = self.solution.values.iter();
+        let own = own.filter_map(|special| match &special.what {
+            SpecialKind::Symbols(pairs) => Some(pairs.clone()),
+            SpecialKind::Function { .. } => None,
+        });
+        let stated: Vec<(Expr, Expr)> = own.flatten().collect();
+        let mut pairs = stated.clone();
+        // So many at most stand between a value and what it needs.
+        for _ in 0..stated.len() {
+            for (_, value) in &mut pairs {
+                *value = put(space, &stated, *value);
             }
-        })
+        }
+        pairs
+    }
+
+    /// A stated value that needs itself.
+    fn circular(&self) -> Option<String> {
+        let space = &*self.functional.space;
+        let pairs = self.pairs();
+        let is_open = |value: &Expr| put(space, &pairs, *value) != space.explicit(*value);
+        let (own, _) = pairs.iter().find(|(_, value)| is_open(value))?;
+        Some(space.graph.text(*own))
     }
 
     fn some(&self, wanted: impl Fn(&Special) -> bool) -> Vec<Special> {

@@ -150,3 +150,40 @@ fn what_restricts_data_or_parameters_is_a_condition() {
         }
     }
 }
+
+#[test]
+fn what_agrees_at_a_corner_follows_from_nothing() {
+    let text = |value: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "membrane"
+density = "1/2 u,i u,i"
+yields = ["a"]
+imposed = ["b", "c"]
+[domain]
+coordinates = ["x", "y"]
+intervals = {{ x = [0, 1], y = [0, 1] }}
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = {{ fixed = ["u"] }}
+"y = 0" = "0"
+"y = 1" = {{ fixed = ["u"] }}
+[equations]
+a = "u,ii = 0"
+b = {{ equation = "u = 0", on = "x = 0" }}
+c = {{ equation = "u = {value}", on = "y = 0" }}
+"#
+        )
+    };
+    let study = studied_text("p4p", &text("0"), &[]);
+    let (word, detail) = euler(&study);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(!detail.contains("follows from the others"), "{detail}");
+    let study = studied_text("p4p", &text("1"), &[]);
+    let (word, detail) = euler(&study);
+    assert_eq!(word, "not-applicable", "{detail}");
+    assert!(detail.contains("where x = 0 and y = 0 meet"), "{detail}");
+}

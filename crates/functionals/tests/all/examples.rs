@@ -141,3 +141,98 @@ fn e4_equilibrium_in_the_plane_with_large_displacements() {
         assert!(is_euler(&own, &format!("u_{k}"), &wanted), "{wanted}");
     }
 }
+
+#[test]
+fn what_is_left_free_is_what_no_equation_speaks_of() {
+    let text = |density: &str, field: &str, stated: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "algebraic"
+density = "{density}"
+yields = ["a"]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[data]
+f = "scalar"
+[fields]
+{field}
+[boundary]
+S = "0"
+[equations]
+a = "{stated}"
+"#
+        )
+    };
+    for (density, field, stated, free) in [
+        ("1/2 w^2 - f w", "w = \"scalar\"", "w = f", None),
+        (
+            "1/2 s_ii s_jj - s_ii f",
+            "s = \"symmetric\"",
+            "s_ii = f",
+            Some("2 of its 3"),
+        ),
+        (
+            "1/2 s_ij s_ij - s_ii f",
+            "s = \"symmetric\"",
+            "s_ij = f delta_ij",
+            None,
+        ),
+    ] {
+        let study = studied_text("p4p", &text(density, field, stated), &[]);
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), "proved", "{density}: {}", verdict.detail());
+        match free {
+            Some(count) => assert!(verdict.detail().contains(count), "{}", verdict.detail()),
+            None => assert!(
+                !verdict.detail().contains("left free"),
+                "{}",
+                verdict.detail()
+            ),
+        }
+    }
+}
+
+#[test]
+fn what_is_divided_by_is_said() {
+    let text = |value: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "string"
+density = "k/2 u,x^2 - k f u"
+yields = ["a"]
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 1] }}
+[fields]
+u = "scalar"
+[data]
+f = "scalar"
+[parameters]
+k = {value}
+[boundary]
+"x = 0" = {{ fixed = ["u"] }}
+"x = 1" = {{ fixed = ["u"] }}
+[equations]
+a = "u,xx + f = 0"
+"#
+        )
+    };
+    for (value, said) in [("{}", true), ("\"3\"", false)] {
+        let study = studied_text("p4p", &text(value), &[]);
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+        assert_eq!(
+            verdict.detail().contains("k ≠ 0"),
+            said,
+            "{}",
+            verdict.detail()
+        );
+    }
+    let study = studied_text("p4p", &text("\"0\""), &[]);
+    assert_eq!(decided(&study, "functional.euler").word(), "refuted");
+}

@@ -191,3 +191,40 @@ fields = {{ u = "{field}" }}
     let (word, detail) = solution(&plate("2 x - y + 3"));
     assert_eq!(word, "proved", "{detail}");
 }
+
+#[test]
+fn stated_values_may_need_each_other() {
+    // u'' + f = 0, where f is stated too; an order of statements does not matter.
+    let text = |fields: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "string"
+density = "1/2 u,x^2 - f u"
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 1] }}
+[fields]
+u = "scalar"
+[data]
+f = "scalar"
+[boundary]
+"x = 0" = {{ fixed = ["u"] }}
+"x = 1" = {{ fixed = ["u"] }}
+[solutions.own]
+fields = {fields}
+"#
+        )
+    };
+    for (fields, word) in [
+        (r#"{ f = "2", u = "f x (1 - x)/2" }"#, "proved"),
+        (r#"{ u = "f x (1 - x)/2", f = "2" }"#, "proved"),
+        (r#"{ f = "-u,xx", u = "x^4 - x" }"#, "proved"),
+        (r#"{ f = "u,xx", u = "x^4 - x" }"#, "refuted"),
+        (r#"{ f = "3", u = "f x (1 - x)" }"#, "refuted"),
+        (r#"{ f = "u", u = "f x" }"#, "undecided"),
+    ] {
+        let (own, detail) = solution(&text(fields));
+        assert_eq!(own, word, "{fields}: {detail}");
+    }
+}

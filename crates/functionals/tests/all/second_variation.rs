@@ -193,6 +193,24 @@ fn several_fields_have_a_determinant() {
 }
 
 #[test]
+fn two_fields_may_have_one_conjugate_point() {
+    // Two strings side by side: det V = sin² x touches zero at π and does not change its sign.
+    let strings = "1/2 u,x^2 + 1/2 v,x^2 - 1/2 u^2 - 1/2 v^2";
+    // The same in sums and differences.
+    let mixed = "1/2 u,x^2 + 1/2 v,x^2 + 1/2 u,x v,x - 1/2 u^2 - 1/2 v^2 - 1/2 u v";
+    for density in [strings, mixed] {
+        words(&[
+            (density, "3", [BOTH_HELD, BOTH_HELD], "numerical"),
+            (density, "pi", [BOTH_HELD, BOTH_HELD], "undecided"),
+            (density, "4", [BOTH_HELD, BOTH_HELD], "refuted"),
+            (density, "9", [BOTH_HELD, BOTH_HELD], "refuted"),
+        ]);
+        let own = verdict(density, "4", [BOTH_HELD, BOTH_HELD]);
+        assert!(own.detail().contains("3.14159"), "{}", own.detail());
+    }
+}
+
+#[test]
 fn where_the_conditions_do_not_apply_it_is_said() {
     for (text, words) in [
         (

@@ -29,6 +29,8 @@ pub(super) enum Shown {
 
 /// How near to zero a number is called zero.
 const SMALL: f64 = 1e-8;
+/// The same of a determinant at its minimum, which is of second order in the place.
+const LEAST: f64 = 1e-12;
 
 /// Numbers of a matrix of expressions at a place.
 fn numbers(form: &Form<'_>, matrix: &[Vec<Expr>], x: f64) -> Option<Vec<Vec<f64>>> {
@@ -78,8 +80,6 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
 /// A determinant, relative to the product of the lengths of its rows.
 fn relative_determinant(matrix: &[Vec<f64>]) -> f64 {
     let mut a = matrix.to_vec();
-    let n = a.len();
-    let mut value = 1.0;
     for row in &mut a {
         let size = row.iter().map(|v| v * v).sum::<f64>().sqrt();
         if size == 0.0 {
@@ -87,6 +87,12 @@ fn relative_determinant(matrix: &[Vec<f64>]) -> f64 {
         }
         row.iter_mut().for_each(|v| *v /= size);
     }
+    determinant(a)
+}
+
+fn determinant(mut a: Vec<Vec<f64>>) -> f64 {
+    let n = a.len();
+    let mut value = 1.0;
     for k in 0..n {
         let best = (k..n)
             .max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))
@@ -186,64 +192,127 @@ impl Equations<'_, '_> {
     }
 }
 
-/// What a conjoined basis shows; `None` where the equations could not be integrated.
+/// What a conjoined basis shows; `None` where the equations could not be integrated. Between steps its columns are made orthonormal, in units
+/// in which V and W are of one size: then det V is small near its zeros only. A zero of even multiplicity shows as a minimum of |det V|.
 pub(super) fn shown(form: &Form<'_>, (lower, upper): (f64, f64)) -> Option<Shown> {
-    let equations = Equations { form, shift: 0.0 };
-    let n = form.count();
-    let top =
-        |y: &[f64]| -> Vec<Vec<f64>> { (0..n).map(|a| y[a * n..(a + 1) * n].to_vec()).collect() };
+    let scanned = Scanned {
+        equations: Equations { form, shift: 0.0 },
+        unit: 1.0 / (scale(form, (lower, upper))? * (upper - lower)),
+        n: form.count(),
+    };
     let place = |k: usize| lower + (upper - lower) * k as f64 / STEPS as f64;
-    let mut y = equations.start(lower)?;
-    let mut before: Option<f64> = None;
+    let at_end = |zero: f64| {
+        if (zero - upper).abs() < SMALL * (upper - lower) {
+            Shown::Degenerate
+        } else {
+            Shown::Conjugate(zero)
+        }
+    };
+    let mut own = scanned.orthonormal(scanned.equations.start(lower)?);
+    // The basis and the determinant before that.
+    let mut before: Option<(Basis, f64)> = None;
     for k in 1..=STEPS {
-        let next = equations.between((place(k - 1), place(k)), &y)?;
-        let own = relative_determinant(&top(&next));
-        let first = before.unwrap_or(own);
-        let is_last = k == STEPS;
-        if is_last && own.abs() < SMALL {
+        let next = scanned.after(&own, (place(k - 1), place(k)))?;
+        let (here, there) = (scanned.determinant(&own), scanned.determinant(&next));
+        if k == STEPS && there.abs() < SMALL {
             return Some(Shown::Degenerate);
         }
-        if own * first < 0.0 || (own == 0.0 && !is_last) {
-            let zero = zero_between(&equations, &y, (place(k - 1), place(k)), n)?;
-            let is_end = (zero - upper).abs() < SMALL * (upper - lower);
-            return Some(if is_end {
-                Shown::Degenerate
-            } else {
-                Shown::Conjugate(zero)
-            });
+        if here * there < 0.0 {
+            let zero = scanned.change_of_sign(&own, (place(k - 1), place(k)))?;
+            return Some(at_end(zero));
         }
-        before = Some(own);
-        y = next;
+        if let Some((first, value)) = &before {
+            if here.abs() <= value.abs() && here.abs() <= there.abs() {
+                let (zero, least) = scanned.minimum(first, (place(k - 2), place(k)))?;
+                if least < LEAST {
+                    return Some(at_end(zero));
+                }
+            }
+        }
+        before = Some((own, here));
+        own = next;
     }
-    at_the_end(form, &y, upper)
+    at_the_end(form, &own, upper)
 }
 
-fn zero_between(
-    equations: &Equations<'_, '_>,
-    y: &[f64],
-    (from, to): (f64, f64),
+/// A conjoined basis followed from the left end.
+struct Scanned<'a, 'f> {
+    equations: Equations<'a, 'f>,
+    /// W in this unit is of the size of V.
+    unit: f64,
     n: usize,
-) -> Option<f64> {
-    let determinant = |x: f64| -> Option<f64> {
-        let own = if x > from {
-            equations.between((from, x), y)?
-        } else {
-            y.to_vec()
-        };
-        let top: Vec<Vec<f64>> = (0..n).map(|a| own[a * n..(a + 1) * n].to_vec()).collect();
-        Some(relative_determinant(&top))
-    };
-    let (mut a, mut b) = (from, to);
-    let end = determinant(b)?;
-    for _ in 0..50 {
-        let c = 0.5 * (a + b);
-        if determinant(c)? * end > 0.0 {
-            b = c;
-        } else {
-            a = c;
+}
+
+impl Scanned<'_, '_> {
+    /// The basis at another place, orthonormal.
+    fn after(&self, y: &[f64], (from, to): (f64, f64)) -> Option<Basis> {
+        if to <= from {
+            return Some(y.to_vec());
         }
+        Some(self.orthonormal(self.equations.between((from, to), y)?))
     }
-    Some(0.5 * (a + b))
+
+    /// The same solutions by orthonormal columns, made one after the other, so that the sign of det V stays.
+    fn orthonormal(&self, mut y: Basis) -> Basis {
+        let n = self.n;
+        let weight = |row: usize| if row < n { 1.0 } else { self.unit * self.unit };
+        for c in 0..n {
+            for other in 0..c {
+                let along: f64 = (0..2 * n)
+                    .map(|row| weight(row) * y[row * n + c] * y[row * n + other])
+                    .sum();
+                for row in 0..2 * n {
+                    y[row * n + c] -= along * y[row * n + other];
+                }
+            }
+            let square: f64 = (0..2 * n)
+                .map(|row| weight(row) * y[row * n + c].powi(2))
+                .sum();
+            let size = square.sqrt();
+            if size > 0.0 {
+                (0..2 * n).for_each(|row| y[row * n + c] /= size);
+            }
+        }
+        y
+    }
+
+    fn determinant(&self, y: &[f64]) -> f64 {
+        let n = self.n;
+        determinant((0..n).map(|a| y[a * n..(a + 1) * n].to_vec()).collect())
+    }
+
+    /// Where det V changes its sign.
+    fn change_of_sign(&self, y: &[f64], (from, to): (f64, f64)) -> Option<f64> {
+        let value = |x: f64| Some(self.determinant(&self.after(y, (from, x))?));
+        let (mut a, mut b) = (from, to);
+        let end = value(b)?;
+        for _ in 0..50 {
+            let c = 0.5 * (a + b);
+            if value(c)? * end > 0.0 {
+                b = c;
+            } else {
+                a = c;
+            }
+        }
+        Some(0.5 * (a + b))
+    }
+
+    /// Where |det V| is least, and its value there, by golden sections.
+    fn minimum(&self, y: &[f64], (from, to): (f64, f64)) -> Option<(f64, f64)> {
+        let value = |x: f64| Some(self.determinant(&self.after(y, (from, x))?).abs());
+        let ratio = 0.5 * (5_f64.sqrt() - 1.0);
+        let (mut a, mut b) = (from, to);
+        for _ in 0..60 {
+            let (left, right) = (b - ratio * (b - a), a + ratio * (b - a));
+            if value(left)? < value(right)? {
+                b = right;
+            } else {
+                a = left;
+            }
+        }
+        let place = 0.5 * (a + b);
+        Some((place, value(place)?))
+    }
 }
 
 /// `W V⁻¹ + B` for the components that are free at the right end.
