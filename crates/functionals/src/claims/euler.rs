@@ -11,6 +11,7 @@ use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// `functional.euler#NAME`.
@@ -139,6 +140,8 @@ struct Comparison<'f> {
     derived: Solved<'f>,
     /// What holds because it is imposed or stated.
     stated: Solved<'f>,
+    /// What was divided by and has no value.
+    nonzero: RefCell<BTreeSet<String>>,
 }
 
 /// An equation that was compared.
@@ -167,6 +170,7 @@ impl<'f> Comparison<'f> {
             variation,
             derived: imposed.with(&euler_groups(functional, variation)),
             stated: imposed.with(&inside(Role::Yielded)),
+            nonzero: RefCell::default(),
         }
     }
 
@@ -174,7 +178,6 @@ impl<'f> Comparison<'f> {
         let mut judged = Vec::new();
         let mut pivots: BTreeSet<String> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
-        let mut nonzero: BTreeSet<String> = BTreeSet::new();
         for equation in self
             .functional
             .with_role(Role::Yielded)
@@ -193,7 +196,6 @@ impl<'f> Comparison<'f> {
         let mut notes = |solved: &Solved<'_>| {
             pivots.extend(solved.pivots.iter().cloned());
             inverted.extend(solved.inverted.iter().cloned());
-            nonzero.extend(solved.nonzero.iter().cloned());
         };
         notes(&self.derived);
         notes(&self.stated);
@@ -204,7 +206,10 @@ impl<'f> Comparison<'f> {
         }
         self.edges(&mut judged);
         self.corners(&mut judged);
-        where_nonzero(self.joined(judged, &pivots, &inverted), &nonzero)
+        where_nonzero(
+            self.joined(judged, &pivots, &inverted),
+            &self.nonzero.borrow(),
+        )
     }
 
     /// Where two faces meet: the conditions there, both ways.
@@ -343,6 +348,8 @@ impl<'f> Comparison<'f> {
     }
 
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
+        let divided = solved.nonzero.iter().cloned();
+        self.nonzero.borrow_mut().extend(divided);
         let whole = of_all(es, solved);
         let is_proved = matches!(whole, Verdict::Proved(_));
         let cases = if solved.left.is_empty() || is_proved {
@@ -363,6 +370,8 @@ impl<'f> Comparison<'f> {
         let mut open = Vec::new();
         let mut pivots = Vec::new();
         for case in cases {
+            let divided = case.nonzero.iter().cloned();
+            self.nonzero.borrow_mut().extend(divided);
             let verdict = of_all(es, &case);
             let labels = case.left.iter().filter(|_| !case.is_circular());
             let labels: Vec<String> = labels.map(|group| format!("`{}`", group.label)).collect();

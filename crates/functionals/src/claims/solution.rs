@@ -121,7 +121,7 @@ impl Inserted<'_> {
             let Some(value) = self.value() else {
                 return Verdict::undecided("the densities are no polynomials at the stated fields, so the value was not integrated");
             };
-            let difference = space.graph.sub(value, *wanted);
+            let difference = space.graph.sub(value, self.at(*wanted));
             match space.vanishing(&[difference], true) {
                 Verdict::Proved(_) => told.push(format!("the value is {written}")),
                 other => {

@@ -223,6 +223,15 @@ fields = {fields}
         (r#"{ f = "u,xx", u = "x^4 - x" }"#, "refuted"),
         (r#"{ f = "3", u = "f x (1 - x)" }"#, "refuted"),
         (r#"{ f = "u", u = "f x" }"#, "undecided"),
+        // ∫ (u'²/2 − f u) dx = −f²/24, in which f is what it is stated to be.
+        (
+            "{ f = \"2\", u = \"f x (1 - x)/2\" }\nvalue = \"-f^2/24\"",
+            "proved",
+        ),
+        (
+            "{ f = \"2\", u = \"f x (1 - x)/2\" }\nvalue = \"-f^2/12\"",
+            "refuted",
+        ),
     ] {
         let (own, detail) = solution(&text(fields));
         assert_eq!(own, word, "{fields}: {detail}");
