@@ -398,9 +398,10 @@ fn close(robot: &mut Robot, equality: Node<'_, '_>, known: &Known) -> Result<(),
         let name = robot.name(wished, node);
         let mut joint = Joint::fixed(name, first, second);
         (joint.at, joint.child_at) = (at, child_at);
-        match is_weld {
-            true => joint.rotation = after(&transposed(&stands[0].axes), &stands[1].axes),
-            false => joint.kind = Kind::Spherical,
+        if is_weld {
+            joint.rotation = after(&transposed(&stands[0].axes), &stands[1].axes);
+        } else {
+            joint.kind = Kind::Spherical;
         }
         if joint.child == "ground" {
             joint = turned_round(joint);

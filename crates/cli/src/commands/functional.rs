@@ -65,10 +65,12 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
         };
         terminal::out(&format!("\nreport: {report}\n"));
     }
-    match study.is_as_expected() {
-        _ if study.is_interrupted => STOPPED,
-        true => DONE,
-        false => UNMET,
+    if study.is_interrupted {
+        STOPPED
+    } else if study.is_as_expected() {
+        DONE
+    } else {
+        UNMET
     }
 }
 

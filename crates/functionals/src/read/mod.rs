@@ -4,11 +4,11 @@ mod declare;
 mod family;
 mod living;
 mod relations;
-mod reserved;
 mod ritz;
 mod solutions;
 mod statements;
 mod symmetry;
+mod vocabulary;
 
 use crate::functional::{Functional, Problem};
 use crate::notation::{check, free_letters, parse, parse_sides, Node};

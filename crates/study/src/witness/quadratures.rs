@@ -283,9 +283,10 @@ impl<'b> Comparison<'b> {
             let longest = runs.max_by_key(|(start, end)| end - start);
             (first, last) = longest.unwrap_or((first, first));
         }
-        match last - first >= FEWEST {
-            true => Ok((first, last)),
-            false => Err(NotCompared::Meeting),
+        if last - first >= FEWEST {
+            Ok((first, last))
+        } else {
+            Err(NotCompared::Meeting)
         }
     }
 
@@ -379,9 +380,10 @@ impl<'b> Comparison<'b> {
     ) -> Result<Vec<f64>, NotCompared> {
         let values = self.g.evaluate_f64(es, value);
         let values = values?;
-        match values.iter().all(|x| x.is_finite()) {
-            true => Ok(values),
-            false => Err(NotCompared::Value),
+        if values.iter().all(|x| x.is_finite()) {
+            Ok(values)
+        } else {
+            Err(NotCompared::Value)
         }
     }
 

@@ -1,0 +1,166 @@
+//! What solved equations say besides: that nothing satisfies them, what they ask of data, which cases there are, and what they leave free.
+
+use super::Solved;
+use crate::functional::Side;
+use crate::space::Jet;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{Expr, Node, Verdict};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// So many products one after the other are taken apart.
+const MOST_PRODUCTS: usize = 4;
+
+impl<'s> Solved<'s> {
+    /// What cannot be where all equations hold: an equation that is left although it never holds, with its label.
+    pub fn contradiction(&self) -> Option<(String, Expr)> {
+        let own = self.impossible();
+        if own.is_some() || !self.is_cut || self.is_circular() {
+            return own;
+        }
+        self.prolonged().impossible()
+    }
+
+    fn impossible(&self) -> Option<(String, Expr)> {
+        self.left.iter().find_map(|group| {
+            let mut own = group.equations.iter().copied();
+            let found = own.find(|&e| self.never_holds(e))?;
+            Some((group.label.clone(), found))
+        })
+    }
+
+    /// Whether an expression is known to vanish nowhere, or not to vanish identically although nothing but the place occurs in it.
+    fn never_holds(&self, e: Expr) -> bool {
+        let space = self.space;
+        let g = &space.graph;
+        let e = self.placed(space.explicit(e));
+        if known_sign(g, e, &Assumptions::new()).is_nonzero() {
+            return true;
+        }
+        let is_place = |symbol| {
+            space
+                .coordinates
+                .iter()
+                .any(|c| g.as_symbol(c.expr) == Some(symbol))
+        };
+        let is_curved = self.place == Some(Side::Curved);
+        let is_of_place = g.symbols_in(&[e]).into_iter().all(is_place);
+        !is_curved && is_of_place && matches!(space.vanishing(&[e], true), Verdict::Refuted(_))
+    }
+
+    /// On a face the variable across it has its value.
+    fn placed(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        self.space.replace(e, &|symbol| {
+            let is_own = |(axis, _): &&(usize, Expr)| {
+                let own = self.space.coordinates.get(*axis);
+                own.is_some_and(|c| g.as_symbol(c.expr) == Some(symbol))
+            };
+            self.constant.iter().find(is_own).map(|(_, at)| *at)
+        })
+    }
+
+    /// What the equations ask of what is given, so that there are fields for some of it only: relations between data and parameters,
+    /// which vanish.
+    pub fn restrictions(&self) -> Vec<Expr> {
+        let space = self.space;
+        let is_given = |component: usize| {
+            let own = space.component_at(component);
+            !own.is_varied && !own.is_of_boundary
+        };
+        let of_rules = self
+            .rules
+            .iter()
+            .filter(|rule| is_given(rule.jet.component));
+        let of_rules = of_rules.map(|rule| {
+            let own = space.jet(rule.jet.component, &rule.jet.by);
+            space.graph.sub(own, self.normal(rule.value))
+        });
+        let left = self
+            .left
+            .iter()
+            .flat_map(|group| group.equations.iter().copied());
+        let is_of_given = |e: &Expr| {
+            let jets = space.jets_in(&[*e]);
+            jets.iter().all(|jet| is_given(jet.component)) && !space.symbols_in(&[*e]).is_empty()
+        };
+        of_rules.chain(left).filter(is_of_given).collect()
+    }
+
+    /// The cases of which one holds wherever the equations do: one for each factor of an equation that is left and is a product.
+    pub fn alternatives(&self) -> Vec<Solved<'s>> {
+        let mut found = Vec::new();
+        let mut open = vec![(self.clone(), 0)];
+        while let Some((own, depth)) = open.pop() {
+            let product = (depth < MOST_PRODUCTS).then(|| own.product()).flatten();
+            let Some((group, at, factors)) = product else {
+                found.push(own);
+                continue;
+            };
+            for factor in factors {
+                let mut case = own.clone();
+                case.left[group].equations[at] = factor;
+                case.prolonged = RefCell::default();
+                case.known.borrow_mut().clear();
+                case.solve();
+                open.push((case, depth + 1));
+            }
+        }
+        found
+    }
+
+    /// The first equation that is left and is a product of several factors with jets.
+    fn product(&self) -> Option<(usize, usize, Vec<Expr>)> {
+        let g = &self.space.graph;
+        let groups = self.left.iter().enumerate();
+        let mut all = groups.flat_map(|(k, group)| {
+            let own = group.equations.iter().enumerate();
+            own.map(move |(at, &e)| (k, at, e))
+        });
+        all.find_map(|(group, at, e)| {
+            let jets = self.space.jets_in(&[e]).into_iter();
+            let symbols: Vec<_> = jets
+                .filter_map(|jet| g.as_symbol(self.space.jet(jet.component, &jet.by)))
+                .collect();
+            let found: Vec<Expr> = match g.node(e) {
+                Node::Product { factors, .. } => {
+                    let own = factors.iter().copied();
+                    own.filter(|&factor| g.contains_any(factor, &symbols))
+                        .collect()
+                }
+                _ => {
+                    let own = chetaev_symbolic::factors::factors(g, e, &symbols)?;
+                    own.into_iter().map(|(factor, _)| factor).collect()
+                }
+            };
+            (found.len() > 1).then_some((group, at, found))
+        })
+    }
+
+    /// How many components of a tensor may be changed by any functions, all else being kept, so that expressions keep their values
+    /// where the equations hold: the components less the rank of the slopes by all their jets. `None` where the rank is not known.
+    pub fn free_components(&self, components: &[usize], es: &[Expr]) -> Option<usize> {
+        let space = self.space;
+        let jets = space.jets_in(es);
+        let own: BTreeSet<Vec<usize>> = jets
+            .into_iter()
+            .filter(|jet| components.contains(&jet.component))
+            .map(|jet| jet.by)
+            .collect();
+        let mut matrix = Vec::new();
+        for &e in es {
+            for by in &own {
+                let slope = |&component: &usize| {
+                    let by = by.clone();
+                    self.normal(space.partial(e, &Jet { component, by }))
+                };
+                matrix.push(components.iter().map(slope).collect::<Vec<Expr>>());
+            }
+        }
+        if matrix.is_empty() {
+            return Some(components.len());
+        }
+        Some(components.len() - self.pivots_of(&matrix)?.columns.len())
+    }
+}

@@ -1,0 +1,531 @@
+//! Equations between jets solved one group after the other, and what follows from them.
+//!
+//! A group of equations that is linear in the components of one tensor, or of one derivative of it, gives rules
+//! for these; the gradient of a function with a conjugate is undone by the conjugate. Rules are differentiated as needed. What is
+//! solved is triangular, so that an expression in which no rule applies any more is a function of free jets, and vanishes
+//! where the equations hold exactly when it vanishes identically. For that, two rules that give the same derivative of a component have to
+//! agree: their difference is one more equation. While equations are solved, these are the integrability conditions of Riquier and Janet
+//! that do not raise the order. Before something is said not to follow, the others are taken too, up to [`Solved::highest`]: what
+//! follows by differentiation and elimination is no counterexample, and where conditions beyond that order are left nothing is refuted.
+//!
+//! Which jet of an equation is solved for is chosen by what it costs, not by a ranking of all jets (C. Riquier 1910), so that rules may
+//! lead back to each other. Such a circle is cut where it closes: what is proved remains so, since a rule that is not used takes nothing
+//! away, but what is left over is no normal form, and nothing is refuted with it.
+//!
+//! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
+//! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
+
+mod consequences;
+mod solver;
+
+use crate::functional::Side;
+use crate::space::{Component, Jet, Space};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::{rational, Expr, Node, Verdict};
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// Equations that belong together: the components of one.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What they are called.
+    pub label: String,
+    /// Expressions that vanish.
+    pub equations: Vec<Expr>,
+}
+
+/// Equations solved as far as possible.
+#[derive(Clone, Debug)]
+pub struct Solved<'s> {
+    space: &'s Space,
+    rules: Vec<Rule>,
+    place: Option<Side>,
+    /// Variables that are constant where the equations hold, with their values.
+    constant: Vec<(usize, Expr)>,
+    is_corner: bool,
+    preferred: BTreeSet<String>,
+    /// Expressions that are not negative, as is known besides: a counterexample keeps to them.
+    nonnegative: Vec<Expr>,
+    /// Pairs of rules that were compared.
+    crossed: BTreeSet<(usize, usize)>,
+    /// Up to which order conditions of integrability that raise the order are taken; none of them where it is `None`.
+    order: Option<usize>,
+    /// Whether there are conditions beyond that order.
+    is_cut: bool,
+    prolonged: RefCell<Option<Rc<Solved<'s>>>>,
+    known: RefCell<BTreeMap<Jet, Expr>>,
+    /// The jets whose values are being computed, each for that of the one before.
+    open: RefCell<Vec<Jet>>,
+    /// Whether rules led back to each other.
+    is_circular: Cell<bool>,
+    judged: RefCell<BTreeMap<Expr, bool>>,
+    /// Equations that are left, with their labels.
+    pub left: Vec<Group>,
+    /// Matrices that were inverted and depend on the fields: the tensors solved for.
+    pub pivots: Vec<String>,
+    /// Functions undone by their conjugates.
+    pub inverted: BTreeSet<String>,
+    /// Expressions in parameters and data that were divided by.
+    pub nonzero: BTreeSet<String>,
+}
+
+/// A jet with its value.
+#[derive(Clone, Debug)]
+struct Rule {
+    jet: Jet,
+    value: Expr,
+    reach: Reach,
+}
+
+/// Where a rule holds, and so by what it may be differentiated.
+#[derive(Clone, Debug, PartialEq)]
+enum Reach {
+    /// In the interior, or wherever it is continued to: data and fields of a piece are continued off it as the rule says.
+    Everywhere,
+    /// On a face: by the other variables.
+    Face(usize),
+    /// On a curved piece: the value is continued by the distance times this component.
+    Piece(usize),
+    /// At a corner only.
+    Corner,
+}
+
+impl Reach {
+    /// Whether a rule may be differentiated so.
+    fn allows(&self, by: &[usize]) -> bool {
+        match self {
+            Reach::Everywhere | Reach::Piece(_) => true,
+            Reach::Face(axis) => !by.contains(axis),
+            Reach::Corner => by.is_empty(),
+        }
+    }
+}
+
+/// At so many points a factor between two equations is looked for.
+const MOST_POINTS: usize = 4;
+
+/// Most rounds; each solves one group or changes its form.
+const MOST_ROUNDS: usize = 200;
+
+/// How often the value of a jet may need that of a derivative of it, one for the other, before this is called a circle.
+const MOST_RISES: usize = 3;
+
+impl<'s> Solved<'s> {
+    /// Nothing solved yet.
+    pub fn new(space: &'s Space) -> Solved<'s> {
+        Solved {
+            space,
+            rules: Vec::new(),
+            place: None,
+            constant: Vec::new(),
+            is_corner: false,
+            preferred: BTreeSet::new(),
+            nonnegative: Vec::new(),
+            crossed: BTreeSet::new(),
+            order: None,
+            is_cut: false,
+            prolonged: RefCell::default(),
+            known: RefCell::default(),
+            open: RefCell::default(),
+            is_circular: Cell::new(false),
+            judged: RefCell::default(),
+            left: Vec::new(),
+            pivots: Vec::new(),
+            inverted: BTreeSet::new(),
+            nonzero: BTreeSet::new(),
+        }
+    }
+
+    /// Solves for these tensors before others.
+    #[must_use]
+    pub fn preferring(mut self, tensors: &[String]) -> Solved<'s> {
+        self.preferred = tensors.iter().cloned().collect();
+        self
+    }
+
+    /// The same where expressions are not negative.
+    #[must_use]
+    pub fn where_nonnegative(mut self, es: &[Expr]) -> Solved<'s> {
+        self.nonnegative.extend(es);
+        self
+    }
+
+    /// The same with more equations, which hold on a piece of the boundary and may be differentiated along it only.
+    #[must_use]
+    pub fn with_on(&self, side: &Side, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.place = Some(side.clone());
+        if let Side::Flat { axis, at, .. } = side {
+            own.constant.push((*axis, *at));
+        }
+        own.with(groups)
+    }
+
+    /// The same with more equations, which hold at a corner and may not be differentiated.
+    #[must_use]
+    pub fn with_at_corner(&self, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.is_corner = true;
+        own.with(groups)
+    }
+
+    /// Where a new rule for a jet holds. Data and fields of the boundary live on a piece only, so that they may be continued off it as
+    /// the rule says; of a field the derivative across the piece is not known.
+    fn reach(&self, jet: &Jet) -> Reach {
+        let component = self.space.component_at(jet.component);
+        match &self.place {
+            _ if self.is_corner => Reach::Corner,
+            None => Reach::Everywhere,
+            Some(_) if component.is_of_boundary => Reach::Everywhere,
+            Some(Side::Flat { axis, .. }) => Reach::Face(*axis),
+            Some(Side::Curved) => Reach::Piece(self.across(jet, &component)),
+        }
+    }
+
+    /// The component that the distance from the piece is multiplied with.
+    fn across(&self, jet: &Jet, of: &Component) -> usize {
+        let g = &self.space.graph;
+        let name = g.text(self.space.jet(jet.component, &jet.by));
+        let by: String = name.chars().skip_while(|c| *c != ',').collect();
+        self.space.component(Component {
+            name: format!("∂{name}/∂n"),
+            tensor: format!("∂{}{by}/∂n", of.tensor),
+            ..of.clone()
+        })
+    }
+
+    /// The same with more equations.
+    #[must_use]
+    pub fn with(&self, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.left.extend(groups.iter().cloned());
+        own.prolonged = RefCell::default();
+        own.solve();
+        own
+    }
+
+    /// The order up to which conditions of integrability are looked at before something is refuted: two derivatives of the highest order
+    /// meet at the latest at twice that order, and what comes of it may be differentiated once more.
+    pub fn highest(&self) -> usize {
+        let orders = self.rules.iter().map(|rule| rule.jet.by.len());
+        2 * orders.max().unwrap_or(0) + 1
+    }
+
+    /// The same with the conditions of integrability that raise the order.
+    fn prolonged(&self) -> Rc<Solved<'s>> {
+        let known = self.prolonged.borrow().clone();
+        if let Some(known) = known {
+            return known;
+        }
+        let mut own = self.clone();
+        own.order = Some(self.highest());
+        own.is_cut = false;
+        own.crossed.clear();
+        own.solve();
+        let made = Rc::new(own);
+        *self.prolonged.borrow_mut() = Some(Rc::clone(&made));
+        made
+    }
+
+    /// An expression where the equations hold: rules and their derivatives put in.
+    pub fn normal(&self, e: Expr) -> Expr {
+        let mut e = e;
+        // A function undone by its conjugate may bring back a jet that has a rule.
+        for _ in 0..MOST_ROUNDS {
+            let ruled = |jet: &Jet| self.rule(jet).is_some();
+            if !self.space.jets_in(&[e]).iter().any(ruled) {
+                return e;
+            }
+            e = self.space.replace(e, &|symbol| {
+                let jet = self.space.as_jet(symbol)?;
+                self.rule(&jet)?;
+                Some(self.value(&jet))
+            });
+            if self.is_circular() {
+                return e;
+            }
+        }
+        e
+    }
+
+    fn rule(&self, jet: &Jet) -> Option<(&Rule, Vec<usize>)> {
+        self.rules.iter().find_map(|rule| {
+            if rule.jet.component != jet.component {
+                return None;
+            }
+            let rest = rest(&jet.by, &rule.jet.by)?;
+            rule.reach.allows(&rest).then_some((rule, rest))
+        })
+    }
+
+    fn value(&self, jet: &Jet) -> Expr {
+        if let Some(&known) = self.known.borrow().get(jet) {
+            return known;
+        }
+        let own = self.space.jet(jet.component, &jet.by);
+        let value = match self.rule(jet) {
+            Some(_) if self.closes_circle(jet) => {
+                self.is_circular.set(true);
+                return own;
+            }
+            Some((rule, rest)) => {
+                self.open.borrow_mut().push(jet.clone());
+                let value = self.normal(self.derived(rule, &rest));
+                self.open.borrow_mut().pop();
+                value
+            }
+            None => own,
+        };
+        self.known.borrow_mut().insert(jet.clone(), value);
+        value
+    }
+
+    /// Whether the value of a jet is needed for itself, or again and again for derivatives of itself: of infinitely many jets of finitely
+    /// many components there are always such (L. E. Dickson 1913), so that every chain of rules without an end is met.
+    fn closes_circle(&self, jet: &Jet) -> bool {
+        let open = self.open.borrow();
+        let is_below =
+            |own: &&Jet| own.component == jet.component && rest(&jet.by, &own.by).is_some();
+        open.contains(jet) || open.iter().filter(is_below).count() > MOST_RISES
+    }
+
+    /// Whether rules led back to each other, so that nothing can be refuted.
+    pub fn is_circular(&self) -> bool {
+        self.is_circular.get()
+    }
+
+    /// What a rule gives for a derivative of its jet.
+    fn derived(&self, rule: &Rule, by: &[usize]) -> Expr {
+        let space = self.space;
+        let own = space.totals(rule.value, by);
+        match rule.reach {
+            Reach::Piece(across) if !by.is_empty() => {
+                let moved = space.of_distance_times(space.jet(across, &[]), by);
+                space.graph.add(&[own, moved])
+            }
+            _ => own,
+        }
+    }
+
+    /// The next pair of rules that give the same derivative of a component: what each gives has to agree.
+    fn crossing(&mut self) -> Option<Group> {
+        for later in 0..self.rules.len() {
+            for earlier in 0..later {
+                if self.crossed.contains(&(earlier, later)) {
+                    continue;
+                }
+                self.crossed.insert((earlier, later));
+                let (a, b) = (&self.rules[earlier], &self.rules[later]);
+                if a.jet.component != b.jet.component {
+                    continue;
+                }
+                let (by_a, by_b) = (missing(&b.jet.by, &a.jet.by), missing(&a.jet.by, &b.jet.by));
+                if !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                    continue;
+                }
+                // Where neither is a derivative of the other, what follows is of higher order than both.
+                let is_above = !by_a.is_empty() && !by_b.is_empty();
+                if is_above
+                    && self
+                        .order
+                        .is_none_or(|most| a.jet.by.len() + by_a.len() > most)
+                {
+                    self.is_cut = true;
+                    continue;
+                }
+                let g = &self.space.graph;
+                let difference = g.sub(self.derived(a, &by_a), self.derived(b, &by_b));
+                let name = self.space.component_at(a.jet.component).name;
+                return Some(Group {
+                    label: format!("integrability of {name}"),
+                    equations: vec![difference],
+                });
+            }
+        }
+        None
+    }
+
+    /// Whether an expression is proved to vanish identically.
+    fn vanishes(&self, e: Expr) -> bool {
+        if self.space.graph.is_zero(e) {
+            return true;
+        }
+        if let Some(&known) = self.judged.borrow().get(&e) {
+            return known;
+        }
+        let found = self.space.vanish(&[e]);
+        self.judged.borrow_mut().insert(e, found);
+        found
+    }
+
+    /// Whether expressions vanish where the equations hold.
+    pub fn follows(&self, es: &[Expr]) -> bool {
+        es.iter().all(|&e| self.vanishes(self.normal(e)))
+    }
+
+    /// The same as a verdict, with a counterexample where one is found.
+    pub fn verdict(&self, e: Expr) -> Verdict {
+        let own = self.normal(e);
+        match self.space.vanishing(&[own], false) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            _ if self.is_multiple(own) => Verdict::Proved(Proof::exact(
+                "",
+                "it is a multiple of an equation that holds, by a factor without fields",
+            )),
+            _ if self.is_circular() => circular(),
+            _ => match self.contradicted(self.space.explicit(own)) {
+                Verdict::Refuted(found) => self.confirmed(e, found),
+                other => other,
+            },
+        }
+    }
+
+    /// A counterexample holds where no consequence of the equations speaks against it: they are differentiated, and what all derivatives
+    /// together say of jets of lower order is put in.
+    fn confirmed(&self, e: Expr, found: Counterexample) -> Verdict {
+        if !self.is_cut {
+            return Verdict::Refuted(found);
+        }
+        let full = self.prolonged();
+        let own = full.normal(e);
+        if full.pivots != self.pivots {
+            return Verdict::undecided(format!(
+                "conditions of integrability up to order {} can be solved only where a coefficient that depends on fields does not vanish",
+                self.highest()
+            ));
+        }
+        match self.space.vanishing(&[own], false) {
+            Verdict::Proved(_) => {
+                return Verdict::Proved(Proof::exact(
+                    "",
+                    "it follows by differentiation and elimination",
+                ))
+            }
+            _ if full.is_multiple(own) => {
+                return Verdict::Proved(Proof::exact(
+                    "",
+                    "it is a multiple of a condition of integrability",
+                ))
+            }
+            _ if full.is_circular() => return circular(),
+            _ => {}
+        }
+        let is_settled = self
+            .space
+            .jets_in(&[own])
+            .iter()
+            .all(|jet| full.rule(jet).is_none());
+        if full.is_cut || full.left.len() > self.left.len() || !is_settled {
+            return Verdict::undecided(format!(
+                "it does not follow from the equations and their conditions of integrability up to order {}; conditions beyond that, or such \
+                 that cannot be solved for a derivative, were not used",
+                self.highest()
+            ));
+        }
+        full.contradicted(self.space.explicit(own))
+    }
+
+    /// A counterexample, where the boundary is plane if there is one: there the derivatives of the curvature are consistent.
+    fn contradicted(&self, e: Expr) -> Verdict {
+        let space = self.space;
+        let plane = space.on_plane(e);
+        let known = |y: &Expr| space.on_plane(space.explicit(self.normal(*y)));
+        let known: Vec<Expr> = self.nonnegative.iter().map(known).collect();
+        if plane == e {
+            return space.vanishing_where(&[e], true, &known);
+        }
+        match space.vanishing_where(&[plane], true, &known) {
+            Verdict::Refuted(found) => Verdict::Refuted(found),
+            _ if space.has_curvature_derivatives(e) => Verdict::undecided(
+                "it vanishes where the boundary is plane, and contains derivatives of the curvature elsewhere",
+            ),
+            _ => space.vanishing(&[e], true),
+        }
+    }
+
+    /// Whether an expression e is an equation f that is left times a factor without fields: then `e f₀ = e₀ f` for all jets, with the
+    /// values at some at which f₀ does not vanish.
+    fn is_multiple(&self, e: Expr) -> bool {
+        let g = &self.space.graph;
+        if let Node::Product { factors, .. } = g.node(e) {
+            let jets = |factor: &&Expr| !self.space.jets_in(&[**factor]).is_empty();
+            let several: Vec<Expr> = factors.iter().filter(jets).copied().collect();
+            return several.len() > 1
+                && several
+                    .into_iter()
+                    .any(|factor| self.is_multiple(self.base(factor)))
+                || self.is_constant_multiple(e);
+        }
+        self.is_constant_multiple(e)
+    }
+
+    fn is_constant_multiple(&self, e: Expr) -> bool {
+        let g = &self.space.graph;
+        let left = self.left.iter();
+        let mut all = left.flat_map(|group| group.equations.iter().copied());
+        all.any(|other| {
+            (1..=MOST_POINTS).any(|seed| {
+                let jets = self
+                    .space
+                    .jets_in(&[e, other])
+                    .into_iter()
+                    .collect::<Vec<_>>();
+                let [one, two] = [e, other].map(|e| self.at_point(e, &jets, seed));
+                let is_somewhere = !g.is_zero(two)
+                    && matches!(self.space.vanishing(&[two], true), Verdict::Refuted(_));
+                is_somewhere && self.vanishes(g.sub(g.mul(&[e, two]), g.mul(&[one, other])))
+            })
+        })
+    }
+
+    /// An expression with rational values for jets: all of one sign, of the other, or by turns.
+    fn at_point(&self, e: Expr, jets: &[Jet], seed: usize) -> Expr {
+        let space = self.space;
+        space.replace(e, &|symbol| {
+            let jet = space.as_jet(symbol)?;
+            let at = jets.iter().position(|own| *own == jet)?;
+            let is_positive = match seed {
+                1 => true,
+                2 => false,
+                _ => (at + seed).is_multiple_of(2),
+            };
+            let size = (2 * at + 2 + seed) as i64;
+            let value = rational::ratio(if is_positive { size } else { -size }, 2)?;
+            Some(space.graph.number(value))
+        })
+    }
+}
+
+/// What is said where rules lead back to each other.
+fn circular() -> Verdict {
+    Verdict::undecided(
+        "it does not follow from the equations as they were solved; their conditions of integrability give derivatives by each other in a \
+         circle, so that no counterexample was confirmed",
+    )
+}
+
+/// By what the second derivative has to be differentiated so that it contains the first.
+fn missing(wanted: &[usize], own: &[usize]) -> Vec<usize> {
+    let mut left = own.to_vec();
+    let mut missing = Vec::new();
+    for axis in wanted {
+        match left.iter().position(|known| known == axis) {
+            Some(at) => {
+                left.remove(at);
+            }
+            None => missing.push(*axis),
+        }
+    }
+    missing
+}
+
+/// By what one derivative is differentiated to give another.
+fn rest(more: &[usize], less: &[usize]) -> Option<Vec<usize>> {
+    let mut rest = more.to_vec();
+    for axis in less {
+        let at = rest.iter().position(|own| own == axis)?;
+        rest.remove(at);
+    }
+    Some(rest)
+}

@@ -1,0 +1,513 @@
+//! Groups of equations solved one after the other: for which tensor, by which rows, and what is divided by.
+
+use super::{rest, Rule, Solved, MOST_ROUNDS};
+use crate::boundary::CURVATURE;
+use crate::space::Jet;
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
+use chetaev_symbolic::{rational, Expr, Node};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A way to solve a group.
+struct Choice {
+    cost: Cost,
+    group: usize,
+    jets: Vec<Jet>,
+    rows: Vec<usize>,
+    matrix: Vec<Vec<Expr>>,
+    rest: Vec<Expr>,
+    is_constant: bool,
+}
+
+/// A group of equations in which the gradient of a function was undone by its conjugate.
+struct Undone {
+    group: usize,
+    equations: Vec<Expr>,
+    function: String,
+    /// What stood before the gradient.
+    matrix: Vec<Vec<Expr>>,
+}
+
+/// How dear a way is: its class, whether another tensor is preferred, whether components stay open, how hard the solution is,
+/// and the place of the group.
+type Cost = (u8, bool, bool, u8, usize);
+
+/// Classes: data and fields without derivatives go first, those with constant coefficients before others, then conjugates.
+const CONSTANT_DATA: u8 = 0;
+const CONSTANT_FIELD: u8 = 1;
+const PLAIN: u8 = 2;
+const CONJUGATE: u8 = 3;
+const CONSTANT_DERIVATIVE: u8 = 4;
+const HOMOGENEOUS: u8 = 5;
+const DERIVATIVE: u8 = 6;
+const PLAIN_DATA: u8 = 7;
+
+/// Determinants of matrices with more rows are not written out.
+const LARGEST_DETERMINANT: usize = 3;
+
+impl Solved<'_> {
+    pub(super) fn solve(&mut self) {
+        let mut undone: BTreeSet<(String, String)> = BTreeSet::new();
+        for _ in 0..MOST_ROUNDS {
+            if self.is_circular() {
+                return;
+            }
+            let mut groups = std::mem::take(&mut self.left);
+            for group in &mut groups {
+                let parts = group
+                    .equations
+                    .iter()
+                    .flat_map(|&e| self.parts(self.normal(e)));
+                group.equations = parts.map(|e| self.stripped(e)).collect();
+                group.equations.retain(|&e| !self.vanishes(e));
+            }
+            groups.retain(|group| !group.equations.is_empty());
+            self.left = groups;
+            let best = self.best();
+            let conjugate = match &best {
+                Some(choice) if choice.cost.0 < CONJUGATE => None,
+                _ => self.conjugated(&undone),
+            };
+            match (conjugate, best) {
+                (Some(own), _) => {
+                    let label = self.left[own.group].label.clone();
+                    undone.insert((label, own.function.clone()));
+                    self.note_nonzero(&own.matrix, None);
+                    self.inverted.insert(own.function);
+                    self.left[own.group].equations = own.equations;
+                }
+                (None, Some(choice)) => {
+                    if !self.adopt(choice) {
+                        return;
+                    }
+                }
+                (None, None) if self.cleaned() => {}
+                (None, None) => match self.crossing() {
+                    Some(group) => self.left.push(group),
+                    None => return,
+                },
+            }
+        }
+    }
+
+    /// What a positive power is of: both vanish together.
+    pub(super) fn base(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        match g.node(e) {
+            Node::Power { base, exponent } => {
+                let exponent = g.as_number(*exponent);
+                let is_positive = exponent.is_some_and(|n| !rational::is_negative(n));
+                if is_positive {
+                    *base
+                } else {
+                    e
+                }
+            }
+            _ => e,
+        }
+    }
+
+    /// The terms of a sum of which none is negative, or none positive: each vanishes where the sum does.
+    fn parts(&self, e: Expr) -> Vec<Expr> {
+        let g = &self.space.graph;
+        let Node::Sum { constant, terms } = g.node(e) else {
+            return vec![e];
+        };
+        let assumptions = Assumptions::new();
+        let parts = terms
+            .iter()
+            .map(|(term, coefficient)| g.mul(&[g.number(coefficient.clone()), *term]));
+        let parts: Vec<Expr> = parts.collect();
+        let signs: Vec<_> = parts
+            .iter()
+            .map(|&part| known_sign(g, part, &assumptions))
+            .collect();
+        let is_split = constant.is_zero()
+            && (signs.iter().all(|sign| sign.is_nonnegative())
+                || signs.iter().all(|sign| sign.is_nonpositive()));
+        if is_split {
+            parts
+        } else {
+            vec![e]
+        }
+    }
+
+    /// An equation without factors that never vanish, and without positive powers, which vanish where what they are of does.
+    fn stripped(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        let Node::Product { factors, .. } = g.node(e) else {
+            return self.base(e);
+        };
+        let assumptions = Assumptions::new();
+        let vanishes = |&&factor: &&Expr| !known_sign(g, factor, &assumptions).is_nonzero();
+        let kept: Vec<Expr> = factors
+            .iter()
+            .filter(vanishes)
+            .map(|&e| self.base(e))
+            .collect();
+        g.mul(&kept)
+    }
+
+    /// Leaves out jets that occur in what is left although nothing depends on them; whether there were any.
+    fn cleaned(&mut self) -> bool {
+        let mut has_changed = false;
+        for at in 0..self.left.len() {
+            for k in 0..self.left[at].equations.len() {
+                let mut e = self.left[at].equations[k];
+                for jet in self.space.jets_in(&[e]) {
+                    if !self.vanishes(self.space.partial(e, &jet)) {
+                        continue;
+                    }
+                    let zero = self.space.graph.zero();
+                    e = self.space.replace(e, &|symbol| {
+                        (self.space.as_jet(symbol).as_ref() == Some(&jet)).then_some(zero)
+                    });
+                    has_changed = true;
+                }
+                self.left[at].equations[k] = e;
+            }
+        }
+        has_changed
+    }
+
+    fn best(&self) -> Option<Choice> {
+        let mut best: Option<Choice> = None;
+        for (at, group) in self.left.iter().enumerate() {
+            for jets in self.blocks(&group.equations) {
+                let cost = match &best {
+                    Some(best) => best.cost,
+                    None => (u8::MAX, true, true, u8::MAX, 0),
+                };
+                if let Some(choice) = self.choice(at, &group.equations, jets, cost) {
+                    best = Some(choice);
+                }
+            }
+        }
+        best
+    }
+
+    /// Jets that are components of one tensor, or of one derivative of it.
+    fn blocks(&self, equations: &[Expr]) -> Vec<Vec<Jet>> {
+        let mut blocks: BTreeMap<(String, Vec<usize>), Vec<Jet>> = BTreeMap::new();
+        for jet in self.space.jets_in(equations) {
+            let tensor = self.space.component_at(jet.component).tensor;
+            if tensor == CURVATURE {
+                continue;
+            }
+            blocks
+                .entry((tensor, jet.by.clone()))
+                .or_default()
+                .push(jet);
+        }
+        blocks.into_values().collect()
+    }
+
+    fn choice(
+        &self,
+        group: usize,
+        equations: &[Expr],
+        jets: Vec<Jet>,
+        least: Cost,
+    ) -> Option<Choice> {
+        let space = self.space;
+        let g = &space.graph;
+        let first = jets.first()?;
+        let component = space.component_at(first.component);
+        // The best that can come of it, before anything is computed.
+        let is_given = !component.is_varied && !component.is_of_boundary;
+        let hoped = match (first.by.is_empty(), component.is_varied) {
+            (true, false) => CONSTANT_DATA,
+            (true, true) => CONSTANT_FIELD,
+            (false, _) => CONSTANT_DERIVATIVE,
+        };
+        let is_other = !self.preferred.is_empty() && !self.preferred.contains(&component.tensor);
+        if (hoped, is_other, false, 0, group) >= least {
+            return None;
+        }
+        // Where derivatives stand beside them only the solution zero is one.
+        let has_derivatives = self.has_derivatives(equations, &jets);
+        if has_derivatives && !self.are_homogeneous(equations, &jets) {
+            return None;
+        }
+        let occurs = |es: &[Expr]| space.jets_in(es).iter().any(|jet| jets.contains(jet));
+        let mut matrix = Vec::new();
+        for &e in equations {
+            let row: Vec<Expr> = jets.iter().map(|jet| space.partial(e, jet)).collect();
+            if occurs(&row) {
+                return None;
+            }
+            matrix.push(row);
+        }
+        let is_constant = matrix
+            .iter()
+            .all(|row| space.jets_in(row).is_empty() && self.is_free(row));
+        let Pivots { rows, columns } = self.pivots_of(&matrix)?;
+        let class = match (hoped, is_constant) {
+            _ if has_derivatives => HOMOGENEOUS,
+            (class, true) => class,
+            (CONSTANT_DERIVATIVE, false) => DERIVATIVE,
+            // Given data are solved for by numbers only: else where a coefficient vanishes something false would follow.
+            (_, false) if is_given => PLAIN_DATA,
+            (_, false) => PLAIN,
+        };
+        let is_open = columns.len() < jets.len();
+        if columns.is_empty()
+            || (has_derivatives && is_open)
+            || (class, is_other, is_open, 0, group) >= least
+        {
+            return None;
+        }
+        let chosen: Vec<Jet> = columns.iter().map(|&c| jets[c].clone()).collect();
+        let zero = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            chosen.contains(&jet).then(|| g.zero())
+        };
+        let rest: Vec<Expr> = rows
+            .iter()
+            .map(|&r| space.replace(equations[r], &zero))
+            .collect();
+        let matrix: Vec<Vec<Expr>> = rows
+            .iter()
+            .map(|&r| columns.iter().map(|&c| matrix[r][c]).collect())
+            .collect();
+        let are_numbers = matrix.iter().flatten().all(|&e| g.as_number(e).is_some());
+        let effort = match are_numbers {
+            true => 0,
+            false if self.recognized(&matrix, &rest).is_some() => 1,
+            false => 2,
+        };
+        let cost = (class, is_other, is_open, effort, group);
+        if cost >= least {
+            return None;
+        }
+        Some(Choice {
+            cost,
+            group,
+            jets: chosen,
+            rows,
+            matrix,
+            rest,
+            is_constant,
+        })
+    }
+
+    /// Whether coefficients are free of the normal too, whose components may vanish.
+    fn is_free(&self, row: &[Expr]) -> bool {
+        let g = &self.space.graph;
+        let symbols = self.space.symbols_in(row);
+        symbols.iter().all(|&s| !self.space.is_of_surface(s))
+            && g.symbols_in(row)
+                .iter()
+                .all(|&s| !self.space.is_application(s))
+    }
+
+    /// Whether a derivative of one of the jets occurs beside them.
+    fn has_derivatives(&self, equations: &[Expr], jets: &[Jet]) -> bool {
+        self.space.jets_in(equations).iter().any(|other| {
+            jets.iter().any(|jet| {
+                other.component == jet.component
+                    && other.by.len() > jet.by.len()
+                    && rest(&other.by, &jet.by).is_some()
+            })
+        })
+    }
+
+    /// Whether equations hold where the jets vanish.
+    fn are_homogeneous(&self, equations: &[Expr], jets: &[Jet]) -> bool {
+        let space = self.space;
+        let zero = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            jets.contains(&jet).then(|| space.graph.zero())
+        };
+        let mut rests = equations.iter().map(|&e| space.replace(e, &zero));
+        rests.all(|e| self.vanishes(e))
+    }
+
+    pub(super) fn pivots_of(&self, matrix: &[Vec<Expr>]) -> Option<Pivots> {
+        let assumptions = Assumptions::new();
+        let columns = matrix.first()?.len();
+        let entries: Vec<Expr> = matrix
+            .iter()
+            .flatten()
+            .map(|&e| self.space.on_sphere(e))
+            .collect();
+        let test = RankTest {
+            rows: matrix.len(),
+            columns,
+            entries: &entries,
+            solved: &[],
+            implicit: &[],
+            assumptions: &assumptions,
+            options: Options::default(),
+        };
+        let rank = generic_rank(&self.space.graph, &test).ok()?;
+        (rank.minimum == rank.maximum).then_some(rank.pivots)
+    }
+
+    /// The solution of `matrix x + rest = 0`: one that is recognized, else by elimination.
+    fn solution(&self, matrix: &[Vec<Expr>], rest: &[Expr]) -> Option<Vec<Expr>> {
+        let g = &self.space.graph;
+        if let Some(found) = self.recognized(matrix, rest) {
+            return Some(found);
+        }
+        let right: Vec<Expr> = rest.iter().map(|&e| g.neg(e)).collect();
+        g.solve(&matrix.concat(), &right).ok()
+    }
+
+    fn recognized(&self, matrix: &[Vec<Expr>], rest: &[Expr]) -> Option<Vec<Expr>> {
+        let candidates = self.candidates(rest).into_iter();
+        let mut fitting = candidates.filter(|candidate| candidate.len() == matrix.len());
+        fitting.find(|candidate| self.solves(matrix, rest, candidate))
+    }
+
+    /// Tensors that a solution may be: gradients that occur, tensors that have a name.
+    fn candidates(&self, rest: &[Expr]) -> Vec<Vec<Expr>> {
+        let mut found = Vec::new();
+        for (function, arguments) in self.space.gradients_in(rest) {
+            found.push(self.space.gradient(function, &arguments));
+            found.push(arguments);
+        }
+        for named in self.space.named_arguments() {
+            found.push(named.iter().map(|&e| self.normal(e)).collect());
+        }
+        found
+    }
+
+    fn solves(&self, matrix: &[Vec<Expr>], rest: &[Expr], x: &[Expr]) -> bool {
+        let g = &self.space.graph;
+        matrix.iter().zip(rest).all(|(row, &rest)| {
+            let mut terms: Vec<Expr> = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x])).collect();
+            terms.push(rest);
+            self.vanishes(g.add(&terms))
+        })
+    }
+
+    fn adopt(&mut self, choice: Choice) -> bool {
+        let Some(values) = self.solution(&choice.matrix, &choice.rest) else {
+            return false;
+        };
+        if let (true, Some(jet)) = (choice.is_constant, choice.jets.first()) {
+            self.note_nonzero(&choice.matrix, Some(jet.component));
+        }
+        if !choice.is_constant {
+            if let Some(jet) = choice.jets.first() {
+                let tensor = self.space.component_at(jet.component).tensor;
+                if !self.pivots.contains(&tensor) {
+                    self.pivots.push(tensor);
+                }
+            }
+        }
+        for (jet, value) in choice.jets.into_iter().zip(values) {
+            let reach = self.reach(&jet);
+            self.rules.push(Rule { jet, value, reach });
+        }
+        self.known.borrow_mut().clear();
+        let group = &mut self.left[choice.group];
+        let mut row = 0;
+        group.equations.retain(|_| {
+            row += 1;
+            !choice.rows.contains(&(row - 1))
+        });
+        true
+    }
+
+    /// `B'(Y) = X` as `Y = A'(X)` in a group that was not changed yet.
+    fn conjugated(&self, undone: &BTreeSet<(String, String)>) -> Option<Undone> {
+        let space = self.space;
+        let g = &space.graph;
+        for (at, group) in self.left.iter().enumerate() {
+            for (function, arguments) in space.gradients_in(&group.equations) {
+                let own = space.function_at(function);
+                if undone.contains(&(group.label.clone(), own.name.clone())) {
+                    continue;
+                }
+                let Some(conjugate) = space.undoing(function) else {
+                    continue;
+                };
+                let gradient = space.gradient(function, &arguments);
+                let symbols: Vec<_> = gradient.iter().filter_map(|&e| g.as_symbol(e)).collect();
+                if symbols.len() != gradient.len() || group.equations.len() != gradient.len() {
+                    continue;
+                }
+                let one = g.one();
+                let matrix: Vec<Vec<Expr>> = group
+                    .equations
+                    .iter()
+                    .map(|&e| {
+                        let slope = |&own| {
+                            g.derive(&[e], &|s| (s == own).then_some(one))
+                                .swap_remove(0)
+                        };
+                        symbols.iter().map(slope).collect()
+                    })
+                    .collect();
+                if g.any_contains_any(&matrix.concat(), &symbols) {
+                    continue;
+                }
+                let full = self
+                    .pivots_of(&matrix)
+                    .is_some_and(|p| p.rows.len() == gradient.len());
+                if !full {
+                    continue;
+                }
+                let zeros: Vec<(Expr, Expr)> = gradient.iter().map(|&e| (e, g.zero())).collect();
+                let rest = g.substitute_all(&group.equations, &zeros);
+                let Some(x) = self.solution(&matrix, &rest) else {
+                    continue;
+                };
+                let image = space.gradient(conjugate, &x);
+                let equations = arguments
+                    .iter()
+                    .zip(image)
+                    .map(|(&y, a)| g.sub(y, a))
+                    .collect();
+                return Some(Undone {
+                    group: at,
+                    equations,
+                    function: own.name,
+                    matrix,
+                });
+            }
+        }
+        None
+    }
+
+    /// What must not vanish so that a matrix without fields is regular: the factors of its determinant in which something occurs that
+    /// has no value. A large matrix is named by what was solved for.
+    fn note_nonzero(&mut self, matrix: &[Vec<Expr>], component: Option<usize>) {
+        let g = &self.space.graph;
+        let symbols = g.symbols_in(&matrix.concat());
+        if symbols.is_empty() {
+            return;
+        }
+        let entry = |i: usize, j: usize| matrix.get(i).and_then(|row| row.get(j));
+        let size = matrix.len();
+        let is_diagonal = (0..size)
+            .all(|i| (0..size).all(|j| i == j || entry(i, j).is_some_and(|&e| g.is_zero(e))));
+        let divisors: Vec<Expr> = if is_diagonal {
+            (0..size).filter_map(|i| entry(i, i).copied()).collect()
+        } else if size <= LARGEST_DETERMINANT {
+            vec![determinant(g, matrix)]
+        } else {
+            let tensor = component.map(|c| self.space.component_at(c).tensor);
+            if let Some(tensor) = tensor.filter(|tensor| !self.pivots.contains(tensor)) {
+                self.pivots.push(tensor);
+            }
+            return;
+        };
+        let divisors: BTreeSet<Expr> = divisors.into_iter().collect();
+        let assumptions = Assumptions::new();
+        for divisor in divisors {
+            let factors = chetaev_symbolic::factors::factors(g, divisor, &symbols);
+            let factors = factors.unwrap_or_else(|| vec![(divisor, 1)]);
+            for (factor, _) in factors {
+                let is_open = g.as_number(factor).is_none()
+                    && !known_sign(g, factor, &assumptions).is_nonzero();
+                if is_open {
+                    self.nonzero.insert(g.text(factor));
+                }
+            }
+        }
+    }
+}
