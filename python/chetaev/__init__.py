@@ -11,6 +11,12 @@
 
 from __future__ import annotations
 
+import sys as _sys
+
+if _sys.version_info < (3, 12):
+    # Newer ones refuse by themselves what holds for one interpreter of a process.
+    from . import _interpreter  # noqa: F401
+
 from . import errors, gallery
 from .chetaev_native import VERSION as __version__
 from .claims import explain, verify

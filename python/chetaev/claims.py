@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
+import tempfile
 from typing import Any
 
 from . import chetaev_native as native
+from .errors import OptionError
 from .results import Explanation, Study, Verification
 
 
@@ -22,8 +26,10 @@ def explain(claim: str | None = None) -> Explanation:
     return Explanation(json.loads(data), text)
 
 
-def verify(record: str | os.PathLike[str] | Study | dict[str, Any], *, budget: float = 120.0) -> Verification:
-    """Replays the verdicts of a record by other random choices.
+def verify(
+    record: str | os.PathLike[str] | Study | dict[str, Any], *, budget: float = 120.0, independent: bool = False
+) -> Verification:
+    """Replays the verdicts of a record by other random choices, or has them examined by a program that shares nothing with this one.
 
     Parameters
     ----------
@@ -31,11 +37,39 @@ def verify(record: str | os.PathLike[str] | Study | dict[str, Any], *, budget: f
         A ``study.json``, a study, or what its ``to_dict()`` gave.
     budget : float
         Work allowed for each of the two replays, in seconds of a usual machine.
+    independent : bool
+        Lets the checker examine the record instead: a program in Python that knows the theory and the record, and nothing of what
+        decided. It runs as a process of its own, and needs Python 3.11.
+
+    Examples
+    --------
+    >>> import chetaev
+    >>> sleigh = chetaev.System.from_gallery("chaplygin-sleigh")
+    >>> chetaev.verify(sleigh.study(claims="energy.integral", t_end=1)).agrees
+    True
     """
     if isinstance(record, (Study, dict)):
         text = json.dumps(record.to_dict() if isinstance(record, Study) else record)
     else:
         with open(record, encoding="utf-8-sig") as file:
             text = file.read()
-    data, agrees = native.verify(text, budget)
+    data, agrees = _examined(text) if independent else native.verify(text, budget)
     return Verification(json.loads(data), agrees)
+
+
+def _examined(record: str) -> tuple[str, bool]:
+    """What the checker says of a record, and whether it rejects nothing."""
+    if sys.version_info < (3, 11):
+        raise OptionError("independent: the checker needs Python 3.11 or later")
+    with tempfile.TemporaryDirectory(prefix="chetaev-checker-") as folder:
+        for name, text in [*native.checker(), ("study.json", record)]:
+            path = os.path.join(folder, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        program, read = os.path.join(folder, "check_study.py"), os.path.join(folder, "study.json")
+        command = [sys.executable, "-I", "-B", program, read, "--json"]
+        done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    if done.returncode not in (0, 1):
+        raise OptionError(done.stderr.strip() or "the checker cannot be run")
+    return done.stdout, done.returncode == 0

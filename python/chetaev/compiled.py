@@ -32,6 +32,15 @@ class Compiled:
         The multipliers of the constraints, in the order of ``constraints``; zero for redundant ones.
     residuals : f(t, y, out=None)
         What the constraints leave, in the same order.
+    definitions : f(t, y, out=None)
+        What the model defines by names, and its sensors, in the order of ``names``.
+
+    Notes
+    -----
+    Arrays of other libraries are taken where they lie, if they offer DLPack on the CPU. Each function has an ``address`` for callers that know
+    C only: ``void f(double t, double *y, double *values, double *data)``, the signature of Numba's and numbalsoda's right-hand sides. The last argument
+    is the function's array ``data``: it says which function is meant, and has the parameters after that, which may be changed.
+    SciPy's ``LowLevelCallable`` serves quadratures alone; ``solve_ivp`` takes ``f.rhs`` itself.
     """
 
     def __init__(self, system: System, values: Mapping[str, float]) -> None:
@@ -45,6 +54,7 @@ class Compiled:
         self.parameters: dict[str, float] = {name: float(values.get(name, own)) for name, own in known}
         self.state: list[str] = self._native.state
         self.constraints: list[str] = self._native.constraints
+        self.names: list[str] = self._native.definitions
         self._known: dict[str, Function] = {}
         self.rhs = self._function("rates")
 
@@ -68,6 +78,10 @@ class Compiled:
     @property
     def residuals(self) -> Function:
         return self._function("residuals")
+
+    @property
+    def definitions(self) -> Function:
+        return self._function("definitions")
 
     @property
     def is_native(self) -> bool:

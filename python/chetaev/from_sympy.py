@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -36,6 +37,10 @@ class Statement:
         Generalized forces that are not in the Lagrangian.
     parameters : mapping from symbols or names to values
         Values of parameters; those without stay symbols.
+    controls : iterable of functions of the time
+        Arbitrary functions of the time that are no coordinates.
+    definitions : mapping from functions of the time to expressions
+        Names for what is long.
     """
 
     def __init__(
@@ -46,25 +51,31 @@ class Statement:
         constraints: Mapping[str, Any] | Iterable[Any] = (),
         forces: Mapping[Any, Any] | None = None,
         parameters: Mapping[Any, Any] | None = None,
+        controls: Iterable[Any] = (),
+        definitions: Mapping[Any, Any] | None = None,
     ) -> None:
-        named = constraints if isinstance(constraints, Mapping) else {
+        listed = constraints if isinstance(constraints, Mapping) else {
             f"constraint_{number}": own for number, own in enumerate(constraints, 1)
         }
-        equations = {name: own if isinstance(own, sp.Equality) else sp.Eq(own, 0, evaluate=False) for name, own in named.items()}
+        equations = {name: own if isinstance(own, sp.Equality) else sp.Eq(own, 0, evaluate=False) for name, own in listed.items()}
         forces = dict(forces or {})
         self._coordinates = [sp.sympify(own) for own in coordinates]
         for own in self._coordinates:
             if not isinstance(own, AppliedUndef):
                 raise ValueError(f"{own} is no function of the time, and no coordinate: use dynamicsymbols")
         values = {str(key): own for key, own in (parameters or {}).items()}
-        whole = [sp.sympify(lagrangian), *equations.values(), *map(sp.sympify, forces.values())]
+        named = dict(definitions or {})
+        whole = [sp.sympify(own) for own in [lagrangian, *equations.values(), *forces.values(), *named.values()]]
         clock = {own.args[0] for own in self._coordinates}
         symbols = set().union(*(own.free_symbols for own in whole)) - clock
-        functions = set().union(*(own.atoms(AppliedUndef) for own in whole)) - set(self._coordinates)
-        for own in functions:
+        known = sorted(set(controls), key=str)
+        functions = _functions(whole) - set(self._coordinates) - set(named)
+        known = [own for own in known if own in functions]
+        for own in functions - set(known):
             raise ValueError(f"{own} is neither a coordinate nor a parameter")
-        self.names = _names([own.func.__name__ for own in self._coordinates] + sorted(own.name for own in symbols))
-        self._rename = {own: sp.Function(self.names[own.func.__name__])(*own.args) for own in self._coordinates}
+        moving = [*self._coordinates, *known, *named]
+        self.names = _names([own.func.__name__ for own in moving] + sorted(own.name for own in symbols))
+        self._rename = {own: sp.Function(self.names[own.func.__name__])(*own.args) for own in moving}
         self._rename |= {own: sp.Symbol(self.names[own.name]) for own in symbols}
         self.coordinates = [self.names[own.func.__name__] for own in self._coordinates]
         self.sections: dict[str, Any] = {
@@ -72,11 +83,21 @@ class Statement:
             "parameters": {
                 self.names[own.name]: values.get(own.name, {}) for own in sorted(symbols, key=lambda own: str(own.name))
             },
+            "controls": {self.names[own.func.__name__]: {} for own in known},
+            "define": {self.names[key.func.__name__]: self.text(own) for key, own in named.items()},
             "lagrangian": {"L": self.text(lagrangian)},
             "constraints": {name: self.text(own) for name, own in equations.items()},
             "forces": {self.names[key.func.__name__]: self.text(own) for key, own in forces.items() if own != 0},
         }
         self.sections = {key: own for key, own in self.sections.items() if own}
+
+    def state(self, equations: Iterable[Any], unknowns: Sequence[Any] = ()) -> None:
+        """States expressions that somebody says vanish along the motion, under the name ``sympy``."""
+        wanted = [sp.sympify(own) for own in equations]
+        renamed = {own: sp.Symbol(f"unknown_{number}") for number, own in enumerate(unknowns, 1)}
+        texts = [f"{self.text(own.xreplace(renamed))} = 0" for own in wanted if own != 0]
+        names = [own.name for own in renamed.values()]
+        self.sections["equations"] = {"sympy": {"unknowns": names, "equations": texts} if names else texts}
 
     def text(self, expression: Any) -> str:
         """An expression in the names of the model."""
@@ -110,20 +131,50 @@ def of_bodies(
     *,
     holonomic: Iterable[Any] = (),
     velocity: Iterable[Any] = (),
+    auxiliary: Iterable[Any] = (),
     parameters: Mapping[Any, Any] | None = None,
+    derived: Iterable[Any] = (),
 ) -> Statement:
-    """A system of bodies and loads, with generalized speeds u and kinematical equations that vanish."""
+    """A system of bodies and loads, with generalized speeds u and kinematical equations that vanish.
+
+    A velocity that is no derivative of a function of the coordinates, as of a wheel whose rolling is put into it, belongs to a place
+    that the coordinates do not tell. This place is a coordinate of its own here, and the velocity a constraint: Lagrange's operator of a
+    kinetic energy into which constraints were put is wrong (Lindelöf's mistake). ``auxiliary`` speeds are zero, and ``derived`` are
+    expressions that are said to vanish along the motion.
+    """
     t = coordinates[0].args[0]
+    coordinates = list(coordinates)
+    zero = {own: sp.S.Zero for own in auxiliary}
+    equations = [_put(own, zero) for own in [*kinematics, *velocity]]
+    solved, definitions, left = _solved(equations, [own for own in speeds if own not in zero], coordinates)
+    known = zero | solved
+    moving: set[Any] = set().union(*(own.atoms(sp.Derivative) for own in solved.values()))
+    coordinates += sorted({own.expr for own in moving} - set(coordinates), key=str)
     rates = [own.diff(t) for own in coordinates]
-    speeds = list(speeds)
-    # The kinematical equations are linear in the speeds.
-    matrix, right = sp.linear_eq_to_matrix(list(kinematics), speeds)
-    solved = dict(zip(speeds, matrix.LUsolve(right), strict=True)) if speeds != rates else {}
 
     def in_rates(expression: Any) -> Any:
-        return sp.sympify(expression).subs(solved).doit() if solved else sp.sympify(expression)
+        return _put(expression, known)
 
-    kinetic = sum((own.kinetic_energy(frame) for own in bodies), sp.S.Zero)
+    places: list[Any] = []
+    constraints = {f"position_{number}": own for number, own in enumerate(holonomic, 1)}
+    constraints |= {f"velocity_{number}": own for number, own in enumerate(left, 1)}
+    taken = {own.func.__name__ for own in _functions([*coordinates, *speeds])}
+    kinetic = sp.S.Zero
+    for number, own in enumerate(bodies, 1):
+        center = own.masscenter if hasattr(own, "masscenter") else own.point
+        moved = center.vel(frame).to_matrix(frame).applyfunc(in_rates)
+        if hasattr(own, "central_inertia"):
+            kinetic += in_rates(_turning(own, frame))
+        for axis, component, is_rate in zip("xyz", moved, _are_rates([own.xreplace(definitions) for own in moved], coordinates, t), strict=True):
+            if not is_rate:
+                name = f"{own.name}_{axis}"
+                name = name if name not in taken else f"{name}_body_{number}"
+                taken.add(name)
+                place = sp.Function(name)(t)
+                places.append(place)
+                constraints[f"place_{len(places)}"] = place.diff(t) - component
+                component = place.diff(t)
+            kinetic += own.mass * component**2 / 2
     # Velocities may be stated by rates or by speeds.
     forces: dict[Any, Any] = {own: sp.S.Zero for own in coordinates}
     for place, force in loads:
@@ -132,26 +183,150 @@ def of_bodies(
         applied = force.to_matrix(frame).applyfunc(in_rates)
         for own, rate in zip(coordinates, rates, strict=True):
             forces[own] += sum((f * v.diff(rate) for f, v in zip(applied, components, strict=True)), sp.S.Zero)
-    constraints = {f"position_{number}": own for number, own in enumerate(holonomic, 1)}
-    constraints |= {f"velocity_{number}": in_rates(own) for number, own in enumerate(velocity, 1)}
-    return Statement(in_rates(kinetic), coordinates, constraints=constraints, forces=forces, parameters=parameters)
+    derived = [in_rates(own) for own in derived]
+    everything = [kinetic, *forces.values(), *constraints.values(), *derived]
+    controls = _functions([*everything, *definitions.values()]) - {*coordinates, *places, *definitions}
+    found = Statement(
+        kinetic, coordinates + places, constraints=constraints, forces=forces, parameters=parameters, controls=controls,
+        definitions=definitions,
+    )
+    if derived:
+        found.state(derived)
+    return found
 
 
-def statement(what: Any, parameters: Mapping[Any, Any] | None = None) -> Statement:
-    """What a ``KanesMethod``, a ``LagrangesMethod`` or a ``System`` of ``sympy.physics.mechanics`` states."""
+def _put(expression: Any, known: Mapping[Any, Any]) -> Any:
+    """Functions of the time put in, in derivatives too."""
+    if not known:
+        return sp.sympify(expression)
+    t = next(iter(known)).args[0]
+    found = sp.sympify(expression)
+    while True:
+        # The highest derivatives first: what is put in for a lower one may have them no more.
+        order = max((own.variable_count[0][1] for own in found.atoms(sp.Derivative) if own.expr in known), default=0)
+        if order == 0:
+            return found.xreplace(known)
+        found = found.xreplace({own.diff(t, order): sp.sympify(value).diff(t, order) for own, value in known.items()})
+
+
+def _turning(body: Any, frame: Any) -> Any:
+    """The kinetic energy of a rigid body about its centre of mass, whose angular velocity must be that of its orientation."""
+    return body.frame.ang_vel_in(frame).dot(body.central_inertia.dot(body.frame.ang_vel_in(frame))) / 2
+
+
+def _solved(
+    equations: Sequence[Any], speeds: Sequence[Any], coordinates: Sequence[Any]
+) -> tuple[dict[Any, Any], dict[Any, Any], list[Any]]:
+    """Speeds by rates from as many equations as determine them, the first ones first; names for coefficients that are long, and what
+    the other equations say of the rates.
+
+    A speed that no equation determines is the rate of a path of its own.
+    """
+    t = coordinates[0].args[0]
+    rates = [own.diff(t) for own in coordinates]
+    if list(speeds) == rates:
+        return {}, {}, [own for own in equations if own != 0]
+    paths = [sp.Function(f"{own.func.__name__}_path")(t) for own in speeds]
+    along = [*rates, *(own.diff(t) for own in paths)]
+    stated = len(equations)
+    equations = [*equations, *(own - path.diff(t) for own, path in zip(speeds, paths, strict=True))]
+    # The equations are linear in speeds and rates.
+    matrix, right = sp.linear_eq_to_matrix(list(equations), [*speeds, *along])
+    ours, theirs = matrix[:, : len(speeds)], -matrix[:, len(speeds) :].row_join(-right)
+    numbers = _numbers(ours)
+    rows: list[int] = []
+    for row in range(ours.rows):
+        if len(rows) < len(speeds) and numbers.extract([*rows, row], range(len(speeds))).rank() > len(rows):
+            rows.append(row)
+    coefficients = ours.extract(rows, range(len(speeds))).LUsolve(theirs.extract(rows, range(theirs.cols)))
+    definitions: dict[Any, Any] = {}
+    solved: dict[Any, Any] = {}
+    for k, speed in enumerate(speeds):
+        value = sp.S.Zero
+        for j, rate in enumerate([*along, sp.S.One]):
+            own = coefficients[k, j]
+            if own.count_ops() > 8:
+                name = sp.Function(f"{speed.func.__name__}_{j + 1}")(t)
+                definitions[name] = own
+                own = name
+            value += own * rate
+        solved[speed] = value
+    left = [_put(own, solved) for number, own in enumerate(equations) if number < stated and number not in rows]
+    return solved, definitions, [own for own in left if own != 0]
+
+
+def _are_rates(components: Sequence[Any], coordinates: Sequence[Any], t: Any) -> list[bool]:
+    """Which velocities, linear in the rates, are derivatives of functions of coordinates and time: their coefficients have no curl.
+
+    That is asked at a random point, by differences with fifty digits. Where it seems not to be so, nothing wrong comes of it.
+    """
+    import mpmath
+
+    places, rates = [t, *coordinates], [own.diff(t) for own in coordinates]
+    others = sorted(sp.Matrix(components).free_symbols - {t}, key=str)
+    names = [sp.Dummy() for _ in [*places, *rates, *others]]
+    renamed = dict(zip([*places, *rates, *others], names, strict=True))
+    plain = [own.xreplace(renamed) for own in components]
+    known = [not own.atoms(AppliedUndef, sp.Derivative) for own in plain]
+    values = sp.lambdify(names, [own if is_known else 0 for own, is_known in zip(plain, known, strict=True)], modules="mpmath", cse=True)
+    count = len(places)
+    with mpmath.workdps(50):
+        point = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in places]
+        constants = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in others]
+        step, small = mpmath.mpf(10) ** -15, mpmath.mpf(10) ** -20
+
+        def coefficients(at: list[Any]) -> list[list[Any]]:
+            """Of the time, then of the rates, for each component."""
+            free = values(*at, *[0] * len(rates), *constants)
+            units = [[int(own == number) for own in range(len(rates))] for number in range(len(rates))]
+            along = [values(*at, *unit, *constants) for unit in units]
+            return [[start, *(own[number] - start for own in along)] for number, start in enumerate(free)]
+
+        slopes = []
+        for number in range(count):
+            ends = [coefficients([own + sign * step * (k == number) for k, own in enumerate(point)]) for sign in (1, -1)]
+            slopes.append([[(p - m) / (2 * step) for p, m in zip(*own, strict=True)] for own in zip(*ends, strict=True)])
+        pairs = [(i, j) for i in range(count) for j in range(i)]
+        return [
+            is_known and all(abs(slopes[i][number][j] - slopes[j][number][i]) < small for i, j in pairs)
+            for number, is_known in enumerate(known)
+        ]
+
+
+def _numbers(matrix: Any) -> Any:
+    """A matrix at a random point, with what rounding leaves taken for zero."""
+    atoms = matrix.atoms(sp.Derivative, AppliedUndef, sp.Symbol)
+    point = {own: sp.Float(random.uniform(0.3, 1.2), 40) for own in atoms}
+    values = matrix.xreplace(point).evalf(40)
+    return values.applyfunc(lambda own: own if abs(own) > 1e-20 else sp.S.Zero)
+
+
+def _functions(expressions: Iterable[Any]) -> set[Any]:
+    return set().union(*(sp.sympify(own).atoms(AppliedUndef) for own in expressions))
+
+
+def statement(what: Any, parameters: Mapping[Any, Any] | None = None, *, derived: bool = False) -> Statement:
+    """What a ``KanesMethod``, a ``LagrangesMethod`` or a ``System`` of ``sympy.physics.mechanics`` states.
+
+    With ``derived`` the equations are stated too that the object has derived.
+    """
     import sympy.physics.mechanics as me
 
-    if isinstance(what, me.LagrangesMethod):
-        return _of_lagrange(what, parameters)
-    if isinstance(what, me.KanesMethod):
+    is_lagrange, is_kane = isinstance(what, me.LagrangesMethod), isinstance(what, me.KanesMethod)
+    if is_lagrange:
+        return _of_lagrange(what, parameters, derived)
+    if is_kane:
+        equations = list(what.mass_matrix * sp.Matrix([own.diff(own.args[0]) for own in what.u]) - what.forcing) if derived else []
         return of_bodies(
             what._inertial, list(what.q), list(what.u), list(what._k_kqdot * sp.Matrix(what._qdot) + what._k_ku * sp.Matrix(what.u) + what._f_k),
             what.bodies, what.loads or [],
             holonomic=list(what._f_h),
             velocity=list(what._k_nh * sp.Matrix(what.u) + what._f_nh) if what._k_nh else [],
-            parameters=parameters,
+            auxiliary=list(what._uaux), parameters=parameters, derived=equations,
         )
     if type(what).__name__ == "System" and hasattr(what, "kdes"):
+        if derived:
+            return statement(what.eom_method, parameters, derived=True)
         loads = list(what.loads) + [own for actuator in what.actuators for own in actuator.to_loads()]
         return of_bodies(
             what.frame, list(what.q), list(what.u), list(what.kdes), list(what.bodies), loads,
@@ -160,7 +335,7 @@ def statement(what: Any, parameters: Mapping[Any, Any] | None = None) -> Stateme
     raise TypeError(f"{type(what).__name__} states no system that is known here")
 
 
-def _of_lagrange(method: Any, parameters: Mapping[Any, Any] | None) -> Statement:
+def _of_lagrange(method: Any, parameters: Mapping[Any, Any] | None, derived: bool) -> Statement:
     coordinates = list(method.q)
     forces: dict[Any, Any] = {own: sp.S.Zero for own in coordinates}
     frame = method.inertial
@@ -168,4 +343,9 @@ def _of_lagrange(method: Any, parameters: Mapping[Any, Any] | None) -> Statement
         moved = place.ang_vel_in(frame) if hasattr(place, "ang_vel_in") else place.vel(frame)
         for own in coordinates:
             forces[own] += moved.diff(own.diff(), frame, var_in_dcm=False).dot(force)
-    return Statement(sp.Matrix([method._L])[0], coordinates, constraints=list(method.coneqs), forces=forces, parameters=parameters)
+    lagrangian, constraints = sp.Matrix([method._L])[0], list(method.coneqs)
+    controls = _functions([lagrangian, *forces.values(), *constraints]) - set(coordinates)
+    found = Statement(lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters, controls=controls)
+    if derived:
+        found.state(list(method.eom), list(method.lam_vec))
+    return found

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import html
 import json
 import os
+import re
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from .chetaev_native import Linear, Outcome
     from .system import System
@@ -45,7 +47,27 @@ def write(path: str | os.PathLike[str], content: bytes) -> None:
         raise
 
 
-class Result:
+class Shown:
+    """What notebooks show: Jupyter by ``_repr_mimebundle_``, marimo by ``_mime_``."""
+
+    def _html(self) -> str:
+        raise NotImplementedError
+
+    def _latex(self) -> str | None:
+        return None
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        bundle = {"text/plain": repr(self), "text/html": self._html()}
+        latex = self._latex()
+        if latex is not None:
+            bundle["text/latex"] = latex
+        return bundle
+
+    def _mime_(self) -> tuple[str, str]:
+        return "text/html", self._html()
+
+
+class Result(Shown):
     """An answer with its data."""
 
     def __init__(self, data: Json, text: str) -> None:
@@ -64,16 +86,6 @@ class Result:
 
     def _html(self) -> str:
         return f"<pre>{html.escape(str(self))}</pre>"
-
-    def _latex(self) -> str | None:
-        return None
-
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        bundle = {"text/plain": str(self), "text/html": self._html()}
-        latex = self._latex()
-        if latex is not None:
-            bundle["text/latex"] = latex
-        return bundle
 
 
 class Check(Result):
@@ -144,6 +156,16 @@ class Formulation:
         return f"$${self.to_latex()}$$"
 
 
+def _headed(page: str, titles: set[str]) -> str:
+    """The fragment that ``--as mathml`` writes, its comments as headings: browsers typeset it without a script."""
+
+    def heading(found: re.Match[str]) -> str:
+        words = html.unescape(found[1])
+        return f"<h4>{html.escape(words)}</h4>" if words in titles else f"<p><i>{html.escape(words)}</i></p>"
+
+    return re.sub(r"<!-- (.*?) -->", heading, page, flags=re.DOTALL)
+
+
 def part_of(parts: list[Any], which: Any, name: Callable[[Any], str]) -> Any:
     """One of several parts by its number, or by its name."""
     if not isinstance(which, str):
@@ -160,6 +182,7 @@ class Derivation(Result, Sequence[Formulation]):
     def __init__(self, system: System, asked: tuple[list[str], bool], data: Json, notes: list[str]) -> None:
         self._system = system
         self._asked = asked
+        self._shown: str | None = None
         self.notes = notes
         self.formulations = [Formulation(own) for own in data]
         super().__init__(data, "\n\n".join(repr(own) for own in self.formulations))
@@ -189,16 +212,17 @@ class Derivation(Result, Sequence[Formulation]):
         return "\n".join(f"$${own.to_latex()}$$" for own in self.formulations if own.groups)
 
     def _html(self) -> str:
-        parts = []
-        for own in self.formulations:
-            if own.not_derived is not None:
-                parts.append(f"<p>{html.escape(own.not_derived)}</p>")
-                continue
-            parts.append(f"<h4>{html.escape(own.title)}</h4>")
-            for heading, equations in own.groups.items():
-                parts.append(f"<p><i>{html.escape(heading)}</i></p>")
-                parts += [f"<p>$\\displaystyle {html.escape(e.latex)}$</p>" for e in equations]
-        return "\n".join(parts)
+        if self._shown is None:
+            self._shown = _headed(self.to("mathml"), {own.title for own in self.formulations})
+        return self._shown
+
+
+class Counts(Result):
+    """How many operations the equations of each form have as they are printed."""
+
+    def __init__(self, text: str, notes: list[str]) -> None:
+        super().__init__({"text": text, "notes": notes}, text)
+        self.notes = notes
 
 
 class Comparison(Result):
@@ -283,7 +307,7 @@ class Stability(Linearization):
         return found
 
 
-class Verdict:
+class Verdict(Shown):
     """One claim with its verdict and the evidence.
 
     Attributes
@@ -322,8 +346,81 @@ class Verdict:
             f"<pre>{evidence}</pre></details></td></tr>"
         )
 
-    def _repr_html_(self) -> str:
+    def _html(self) -> str:
         return f"<table>{self._row()}</table>"
+
+
+class DenseOutput:
+    """A motion at any time of its span, by polynomials of degree five between the rows.
+
+    They have the coordinates, velocities and accelerations of both rows (Hermite's interpolation), so that what they leave out is of the
+    sixth order in the distance of the rows in the coordinates, and of the fifth in the velocities. ``simulate`` computes rows for times of choice
+    where that is too much: ``simulation={"outputs": 5000}`` in the model.
+
+    Attributes
+    ----------
+    names : list of str
+        The coordinates, then their velocities.
+    t_min, t_max : float
+        The span.
+    """
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        import numpy as np
+
+        known = set(trajectory.names)
+        self.coordinates = [name for name in trajectory.names if f"{name}'" in known and f"{name}''" in known and "'" not in name]
+        self.names = self.coordinates + [f"{name}'" for name in self.coordinates]
+        order = np.argsort(trajectory.t, kind="stable")
+        t = trajectory.t[order]
+        kept = np.concatenate([[True], np.diff(t) > 0])
+        self._t = t[kept]
+        q, v, a = (
+            np.stack([trajectory[name + primes][order][kept] for name in self.coordinates])
+            for primes in ("", "'", "''")
+        )
+        self.t_min, self.t_max = float(self._t[0]), float(self._t[-1])
+        if len(self._t) < 2:
+            self._coefficients = np.stack([q, v, a / 2])
+            return
+        h = np.diff(self._t)
+        # What the Taylor polynomial of the left row leaves at the right one, in the three derivatives.
+        left = q[:, :-1], v[:, :-1] * h, a[:, :-1] * h**2 / 2
+        rest = q[:, 1:] - sum(left)
+        slope = v[:, 1:] * h - left[1] - 2 * left[2]
+        bend = a[:, 1:] * h**2 - 2 * left[2]
+        cubic = 10 * rest - 4 * slope + bend / 2
+        quartic = -15 * rest + 7 * slope - bend
+        quintic = 6 * rest - 3 * slope + bend / 2
+        scaled = np.stack([*left, cubic, quartic, quintic])
+        self._coefficients = scaled / h ** np.arange(6)[:, None, None]
+
+    def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
+        """The state at a time, shape (2 n,), or at many, shape (2 n, times).
+
+        Raises
+        ------
+        ValueError
+            For a time outside the span.
+        """
+        import numpy as np
+
+        times = np.asarray(t, dtype=float)
+        flat = np.atleast_1d(times)
+        if flat.ndim != 1:
+            raise ValueError("t is a number or a vector")
+        if not np.all((flat >= self.t_min) & (flat <= self.t_max)):
+            raise ValueError(f"the motion is known from t = {self.t_min} to {self.t_max}")
+        pieces = self._coefficients.shape[2] if len(self._t) > 1 else 1
+        piece = np.clip(np.searchsorted(self._t, flat, side="right") - 1, 0, pieces - 1)
+        x = flat - self._t[piece]
+        c = self._coefficients[:, :, piece]
+        place, rate = np.zeros_like(c[0]), np.zeros_like(c[0])
+        for own in c[::-1]:
+            rate = rate * x + place
+            place = place * x + own
+        found = np.concatenate([place, rate])
+        return found[:, 0] if times.ndim == 0 else found
 
 
 class Trajectory(Result):
@@ -359,6 +456,11 @@ class Trajectory(Result):
     @property
     def t(self) -> NDArray[np.float64]:
         return self["t"]
+
+    @functools.cached_property
+    def sol(self) -> DenseOutput:
+        """The motion between the rows: ``trajectory.sol(t)``."""
+        return DenseOutput(self)
 
     @property
     def finished(self) -> bool:
@@ -473,7 +575,7 @@ def _data_files(outcome: Outcome) -> dict[str, bytes]:
     return files
 
 
-class Picture:
+class Picture(Shown):
     """The drawing of a motion at a time; notebooks show it."""
 
     def __init__(self, outcome: Outcome, at: float | None, ghosts: int, size: tuple[int, int]) -> None:
@@ -505,8 +607,14 @@ class Picture:
     def _repr_svg_(self) -> str:
         return self.to_svg()
 
+    def _html(self) -> str:
+        return self.to_svg()
 
-class Film:
+    def __repr__(self) -> str:
+        return "<picture of a motion>"
+
+
+class Film(Shown):
     """The moving drawing of a motion, a GIF; notebooks show it."""
 
     def __init__(self, outcome: Outcome, seconds: float | None, size: tuple[int, int]) -> None:
@@ -518,11 +626,13 @@ class Film:
             raise ValueError(f"{os.fspath(path)}: a film is written as .gif")
         write(path, self.content)
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _html(self) -> str:
         import base64
 
-        data = base64.b64encode(self.content).decode()
-        return {"text/html": f'<img src="data:image/gif;base64,{data}">', "text/plain": f"<film of {len(self.content)} bytes>"}
+        return f'<img src="data:image/gif;base64,{base64.b64encode(self.content).decode()}">'
+
+    def __repr__(self) -> str:
+        return f"<film of {len(self.content)} bytes>"
 
 
 class Study(Result):
@@ -597,7 +707,9 @@ class Verification(Result):
     """What a replay says of each verdict of a record; ``agrees`` says that nothing disagrees."""
 
     def __init__(self, data: Json, agrees: bool) -> None:
+        # What the checker says of a claim, in its own words.
+        keys = ("outcome", "verdict", "why") if data and "outcome" in data[0] else ("result", "recorded", "detail")
         width = max((len(own["claim"]) for own in data), default=0)
-        lines = [f"{own['result']:<10} {own['claim']:<{width}} {own['recorded']:<14} {own['detail']}" for own in data]
+        lines = [f"{own[keys[0]]:<10} {own['claim']:<{width}} {own[keys[1]]:<14} {own[keys[2]]}" for own in data]
         super().__init__(data, "\n".join(lines))
         self.agrees = agrees

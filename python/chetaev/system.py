@@ -6,17 +6,30 @@ import json
 import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from . import chetaev_native as native
 from .errors import Interrupted, ModelWarning
-from .results import Check, Comparison, Derivation, Film, Linearization, Picture, Stability, Steady, Study, Trajectory
+from .results import (
+    Check,
+    Comparison,
+    Counts,
+    Derivation,
+    Film,
+    Linearization,
+    Picture,
+    Stability,
+    Steady,
+    Study,
+    Trajectory,
+)
 from .texts import exact, toml
 
 if TYPE_CHECKING:
     from .compiled import Compiled
     from .exported import Exported
     from .sweeps import Sweep
+    from .widget import Widget
 
 #: A number, a text of the model notation, a fraction, or a SymPy expression.
 Value = Any
@@ -34,19 +47,22 @@ class System:
     ----------
     name : str
         A name.
-    coordinates : list of str, or mapping to units
-        The coordinates.
+    coordinates : list of str, or mapping to units, optional
+        The coordinates; joints and contacts have their own.
     kinetic, potential : expression, optional
         Kinetic and potential energy.
     lagrangian : expression, or mapping with the keys ``T``, ``V``, ``L``, optional
         The Lagrangian itself.
-    constraints : mapping from names to equations, or list of equations, optional
+    constraints : mapping from names to texts, or list of texts, optional
         Constraints, as ``"y' cos(phi) = x' sin(phi)"``.
     **sections
-        ``parameters``, ``initial``, ``simulation``, ``define``, ``forces``, ``assumptions``, ``steady``, ``events``, …
+        ``parameters``, ``initial``, ``simulation``, ``define``, ``forces``, ``assumptions``, ``steady``, ``events``, ``bodies``, ``joints``,
+        ``contacts``, …
 
     Examples
     --------
+    A system by its energies and constraints, and one by its bodies:
+
     >>> skate = System(
     ...     "skate",
     ...     coordinates=["x", "y", "phi"],
@@ -57,6 +73,13 @@ class System:
     ... )
     >>> skate.constraints
     ['blade']
+    >>> wheel = System(
+    ...     "wheel",
+    ...     bodies={"wheel": {"shape": "disc", "mass": 2, "radius": 0.3}},
+    ...     contacts={"road": {"type": "rolling", "body": "wheel", "coordinates": ["x", "y", "heading", "lean", "roll"]}},
+    ... )
+    >>> wheel.coordinates
+    ['x', 'y', 'heading', 'lean', 'roll']
     """
 
     _native: native.Model
@@ -65,7 +88,7 @@ class System:
         self,
         name: str,
         *,
-        coordinates: Sequence[str] | Mapping[str, Any],
+        coordinates: Sequence[str] | Mapping[str, Any] | None = None,
         kinetic: Value = None,
         potential: Value = None,
         lagrangian: Value = None,
@@ -74,7 +97,9 @@ class System:
     ) -> None:
         energies = dict(lagrangian) if isinstance(lagrangian, Mapping) else {"L": lagrangian}
         energies.update({"T": kinetic, "V": potential})
-        content: dict[str, Any] = {"name": name, "coordinates": coordinates}
+        content: dict[str, Any] = {"name": name}
+        if coordinates is not None:
+            content["coordinates"] = coordinates
         content["lagrangian"] = {key: own for key, own in energies.items() if own is not None}
         if constraints is not None:
             named = constraints if isinstance(constraints, Mapping) else {
@@ -143,6 +168,7 @@ class System:
         constraints: Mapping[str, Any] | Iterable[Any] = (),
         forces: Mapping[Any, Any] | None = None,
         parameters: Mapping[Any, Value] | None = None,
+        derived: bool = False,
         name: str = "system",
         **sections: Any,
     ) -> System:
@@ -160,6 +186,8 @@ class System:
             Generalized forces that are not in the Lagrangian.
         parameters : mapping from symbols to values
             Those without a value stay symbols.
+        derived : bool
+            States beside it the equations that the object has derived; ``study(claims="equations.stated")`` decides whether they are right.
         **sections
             As for :class:`System`: ``initial``, ``simulation``, …
 
@@ -174,7 +202,7 @@ class System:
         from .from_sympy import Statement, statement
 
         if coordinates is None:
-            stated = statement(lagrangian, parameters)
+            stated = statement(lagrangian, parameters, derived=derived)
         else:
             stated = Statement(lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters)
         return cls(name, **{**stated.sections, **sections})
@@ -220,7 +248,8 @@ class System:
     def _repr_html_(self) -> str:
         import html
 
-        return f"<b>{html.escape(self.name)}</b><pre>{html.escape(self.text)}</pre>"
+        said = f"{html.escape(repr(self)[8:-1])}"
+        return f"<details><summary>{said}</summary><pre>{html.escape(self.text)}</pre></details>"
 
     def sympify(self, expressions: Sequence[str] | str) -> Any:
         """Expressions of the model notation in SymPy, exactly.
@@ -242,9 +271,19 @@ class System:
         text, data, has_errors = self._native.check()
         return Check(json.loads(data), text, has_errors)
 
+    @overload
     def derive(
-        self, formulation: str | Iterable[str] = (), *, all: bool = False, progress: bool = False
-    ) -> Derivation:
+        self, formulation: str | Iterable[str] = (), *, all: bool = False, count: Literal[False] = False, progress: bool = False
+    ) -> Derivation: ...
+
+    @overload
+    def derive(
+        self, formulation: str | Iterable[str] = (), *, all: bool = False, count: Literal[True], progress: bool = False
+    ) -> Counts: ...
+
+    def derive(
+        self, formulation: str | Iterable[str] = (), *, all: bool = False, count: bool = False, progress: bool = False
+    ) -> Derivation | Counts:
         """Derives the equations of motion.
 
         Parameters
@@ -253,6 +292,8 @@ class System:
             Names of formulations; Routh's and Maggi's when left out.
         all : bool
             Every formulation; those that do not apply say why.
+        count : bool
+            Counts the operations of the equations as they are printed; of the shortest when no formulation is named.
 
         Raises
         ------
@@ -260,8 +301,10 @@ class System:
             Where a formulation that was named does not apply.
         """
         names = [formulation] if isinstance(formulation, str) else list(formulation)
-        asked = (names or list(_DEFAULT), all)
         with _Progress(progress) as tell:
+            if count:
+                return Counts(*self._native.count(names or ["reduced"], all, tell))
+            asked = (names or list(_DEFAULT), all)
             text, notes = self._native.derive(*asked, "json", tell)
         return Derivation(self, asked, json.loads(text), notes)
 
@@ -639,6 +682,31 @@ class System:
         from .compiled import Compiled
 
         return Compiled(self, values)
+
+    def widget(
+        self, *, width: int = 720, height: int = 405, motion: Mapping[str, Any] | None = None, **ranges: tuple[float, float]
+    ) -> Widget:
+        """A picture of the motion with live sliders for parameters and for the time; it needs anywidget.
+
+        Parameters
+        ----------
+        width, height : int
+            Size of the picture in pixels.
+        motion : mapping, optional
+            Keywords of :meth:`simulate`.
+        **ranges : pairs of numbers
+            Parameters with the ends of their sliders: ``system.widget(a=(0.1, 0.5))``.
+
+        Examples
+        --------
+        >>> sleigh = System.from_gallery("chaplygin-sleigh")
+        >>> live = sleigh.widget(a=(0.1, 0.5), motion={"t_end": 5})
+        >>> live.values
+        {'a': 0.25}
+        """
+        from .widget import Widget
+
+        return Widget(self, ranges, (width, height), motion or {})
 
     def to_jax(self, formulation: str | None = None) -> Exported:
         """The equations of motion as a pure JAX function ``rhs(t, y, p)``, to be differentiated, mapped and compiled.

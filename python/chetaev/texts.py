@@ -47,37 +47,38 @@ def of_sympy(value: Any) -> str:
     from sympy.printing.str import StrPrinter
 
     class Printer(StrPrinter):  # type: ignore[misc, unused-ignore]
-        def _print_Derivative(self, e: Any) -> str:
-            (variable, count), = e.variable_count
-            function = self._print(e.expr)
+        def _print_Derivative(self, expr: Any) -> str:
+            (variable, count), = expr.variable_count
+            function = self._print(expr.expr)
             if variable.name not in ("t", "_t") or not count.is_Integer or not _NAME.fullmatch(function):
-                raise ValueError(f"{e} is no derivative of a coordinate with respect to the time")
+                raise ValueError(f"{expr} is no derivative of a coordinate with respect to the time")
             return str(function + "'" * int(count))
 
-        def _print_Float(self, e: Any) -> str:
-            return repr(float(e))
+        def _print_Float(self, expr: Any) -> str:
+            return repr(float(expr))
 
-        def _print_Function(self, e: Any) -> str:
-            if isinstance(e, sp.core.function.AppliedUndef):
-                if len(e.args) == 1 and getattr(e.args[0], "name", "") in ("t", "_t"):
-                    return self._name(e.func.__name__)
-                raise ValueError(f"{e} is no function of the time alone")
-            own = {"Abs": "abs"}.get(e.func.__name__, e.func.__name__)
-            return f"{own}({', '.join(self._print(a) for a in e.args)})"
+        def _print_Function(self, expr: Any) -> str:
+            if isinstance(expr, sp.core.function.AppliedUndef):
+                if len(expr.args) == 1 and getattr(expr.args[0], "name", "") in ("t", "_t"):
+                    return self._name(expr.func.__name__)
+                raise ValueError(f"{expr} is no function of the time alone")
+            own = {"Abs": "abs"}.get(expr.func.__name__, expr.func.__name__)
+            return f"{own}({', '.join(self._print(a) for a in expr.args)})"
 
         _print_Abs = _print_Function
         _print_sign = _print_Function
 
-        def _print_Symbol(self, e: Any) -> str:
-            return self._name("t" if e.name == "_t" else e.name)
+        def _print_Symbol(self, expr: Any) -> str:
+            return self._name("t" if expr.name == "_t" else expr.name)
 
-        _print_Dummy = _print_Symbol
+        def _print_Dummy(self, expr: Any) -> str:
+            return self._print_Symbol(expr)
 
-        def _print_Exp1(self, e: Any) -> str:
+        def _print_Exp1(self, expr: Any) -> Any:
             return "exp(1)"
 
-        def _print_Relational(self, e: Any) -> str:
-            return f"{self._print(e.lhs)} {'=' if e.rel_op == '==' else e.rel_op} {self._print(e.rhs)}"
+        def _print_Relational(self, expr: Any) -> str:
+            return f"{self._print(expr.lhs)} {'=' if expr.rel_op == '==' else expr.rel_op} {self._print(expr.rhs)}"
 
         @staticmethod
         def _name(name: str) -> str:
@@ -122,6 +123,7 @@ def _value(value: Any) -> str:
         return exact(value)
     if isinstance(value, str):
         return _text(value)
-    if isinstance(value, Sequence) or type(value).__name__ in ("ndarray", "Tuple"):
-        return "[" + ", ".join(_value(own) for own in value) + "]"
-    return _text(exact(value))
+    listed: Any = value
+    if isinstance(listed, Sequence) or type(listed).__name__ in ("ndarray", "Tuple"):
+        return "[" + ", ".join(_value(own) for own in listed) + "]"
+    return _text(exact(listed))

@@ -23,8 +23,6 @@ NOT_METHODS = {
     "completions": "a script for a shell",
     "help": "help(System)",
 }
-#: Commands that are to become methods.
-NOT_YET = {"follow"}
 #: Options that are no keywords, and why.
 NOT_KEYWORDS = {
     "json": "to_dict()",
@@ -43,8 +41,6 @@ NOT_KEYWORDS_OF = {
     ("principles", "all"): "all verdicts are in the result",
     ("check", "lowered"): "the method lowered",
 }
-#: Options that are to become keywords.
-KEYWORDS_NOT_YET = {("derive", "count"), ("verify", "independent")}
 
 
 def said(*arguments: str) -> str:
@@ -74,7 +70,7 @@ def test_every_command_is_a_method() -> None:
     found = commands()
     assert {"study", "derive", "check", "explain"} <= set(found)
     missing = [own for own in found if method(own) is None and own not in NOT_METHODS]
-    assert set(missing) <= NOT_YET
+    assert missing == []
     assert not [own for own in NOT_METHODS if own in found and hasattr(System, own)]
 
 
@@ -88,7 +84,7 @@ def test_every_option_is_a_keyword() -> None:
         for option in options(command) - set(NOT_KEYWORDS):
             name = option.replace("-", "_")
             name += "_" if keyword.iskeyword(name) else ""
-            if name not in known and (command, option) not in KEYWORDS_NOT_YET | set(NOT_KEYWORDS_OF):
+            if name not in known and (command, option) not in NOT_KEYWORDS_OF:
                 missing.append(f"{command} --{option}")
     assert missing == []
 

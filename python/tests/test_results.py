@@ -10,6 +10,7 @@ import sys
 import textwrap
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -123,3 +124,58 @@ def test_ctrl_c_keeps_what_there_is() -> None:
 def test_progress_is_told() -> None:
     pytest.importorskip("tqdm")
     System.from_gallery("chaplygin-sleigh").simulate(t_end=1, progress=True)
+
+
+def test_operations_are_counted(sleigh: System) -> None:
+    counted = sleigh.derive("maggi", count=True)
+    # m u' − m a w² and (J + m a²) w' + m a u w, and u cos φ, u sin φ.
+    assert str(counted).startswith("maggi: 17 operations: 3 + and −, 10 ×, 0 ÷, 2 powers, 0 roots, 2 functions")
+    assert len(str(sleigh.derive(all=True, count=True)).splitlines()) > 15
+
+
+def test_records_are_examined_by_a_program_that_shares_nothing(sleigh: System) -> None:
+    study = sleigh.study(claims="energy.integral,model.constraints-integrable", t_end=1)
+    found = chetaev.verify(study, independent=True)
+    assert found.agrees
+    assert {own["outcome"] for own in found.to_dict()} == {"confirmed"}
+    false = study.to_dict()
+    for own in false["verdicts"]:
+        if own["claim"] == "energy.integral":
+            own["verdict"] = "refuted"
+    assert not chetaev.verify(false, independent=True).agrees
+    with pytest.raises(chetaev.OptionError):
+        chetaev.verify({"no": "record"}, independent=True)
+
+
+def test_notebooks_show_results_everywhere(sleigh: System) -> None:
+    motion = sleigh.simulate(t_end=1)
+    for own in (
+        sleigh.derive(), sleigh.study(claims="energy.integral", t_end=1), sleigh.check(), chetaev.explain("energy.integral"),
+        motion.picture(), motion.animate(seconds=0.2, width=80, height=60), sleigh.derive(count=True),
+    ):
+        kind, content = own._mime_()
+        assert kind == "text/html" and content == own._repr_mimebundle_()["text/html"]
+    # Browsers typeset this without a script, and pages that were saved keep it.
+    page = sleigh.derive("maggi")._html()
+    assert page.count("<math") >= 2 and "<h4>Maggi&#x27;s equations</h4>" in page and "<!--" not in page
+    ElementTree.fromstring(page)
+
+
+def test_sliders_compute_the_motion_anew(sleigh: System) -> None:
+    pytest.importorskip("anywidget")
+    live = sleigh.widget(a=(0.1, 0.5), motion={"t_end": 3})
+    first = live.picture
+    assert first.startswith("<svg") and live.span == [0.0, 3.0] and live.t == 3.0
+    live.values = {"a": 0.4}
+    assert live.picture != first
+    expected = sleigh.with_values(a=0.4).simulate(t_end=3)
+    np.testing.assert_array_equal(live.motion["x"], expected["x"])
+    live.t = 1.5
+    assert live.picture == expected.picture(at=1.5, ghosts=4, width=720, height=405).to_svg()
+    bundle = live._repr_mimebundle_()[0]
+    assert "a = 0.4, t = 1.5" in bundle["text/html"] and "application/vnd.jupyter.widget-view+json" in bundle
+    # What cannot be computed is said, and the last picture stays.
+    live.values = {"a": float("nan")}
+    assert live.said
+    with pytest.raises(ValueError, match="`b` is no parameter"):
+        sleigh.widget(b=(0, 1))

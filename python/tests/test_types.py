@@ -47,3 +47,12 @@ def test_everything_public_is_documented() -> None:
     for name, own in vars(chetaev.System).items():
         if callable(own) and not name.startswith("_"):
             assert inspect.getdoc(own), name
+
+
+def test_pyright_finds_nothing(tmp_path: Path) -> None:
+    pytest.importorskip("pyright")
+    package = Path(chetaev.__file__).parent
+    command = [sys.executable, "-m", "pyright", "--pythonpath", sys.executable, str(package)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert "0 errors" in done.stdout

@@ -1,5 +1,6 @@
 //! `cargo xtask python`: the Python package beside a virtual environment, and its tests.
 
+use crate::extent::VARIABLE;
 use crate::{cargo, err, out, refuse, status_of};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,7 +15,7 @@ and installs what the tests need by pip, once. Without Python 3.10 and pip nothi
 ";
 
 /// What the tests import.
-const NEEDED: [&str; 13] = [
+const NEEDED: [&str; 19] = [
     "numpy",
     "scipy",
     "sympy",
@@ -28,6 +29,12 @@ const NEEDED: [&str; 13] = [
     "distributed",
     "casadi",
     "jax",
+    "matplotlib",
+    "numba",
+    "anywidget",
+    "pyright[nodejs]",
+    "nbclient",
+    "myst-nb",
 ];
 
 /// What is built where nothing is built yet: the native part, and the command line that it is compared with.
@@ -38,15 +45,15 @@ const AFTER_TESTS: &[&str] = &["build", "--workspace", "--lib", "--bins", "--tes
 
 /// Runs the task; the exit status is that of the first program that fails.
 pub(crate) fn run(words: &[String]) -> u8 {
-    run_built(ALONE, words)
+    run_built(ALONE, words, None)
 }
 
-/// Runs the Python tests after those of Rust.
-pub(crate) fn after_tests() -> u8 {
-    run_built(AFTER_TESTS, &[])
+/// Runs the Python tests after those of Rust, to the same extent.
+pub(crate) fn after_tests(extent: &str) -> u8 {
+    run_built(AFTER_TESTS, &[], Some(extent))
 }
 
-fn run_built(build: &[&str], words: &[String]) -> u8 {
+fn run_built(build: &[&str], words: &[String], extent: Option<&str>) -> u8 {
     if words.iter().any(|word| word == "--help" || word == "-h") {
         out(HELP);
         return 0;
@@ -74,7 +81,11 @@ fn run_built(build: &[&str], words: &[String]) -> u8 {
             return 1;
         }
     };
-    let tests = Command::new(own)
+    let mut tests = Command::new(own);
+    if let Some(extent) = extent {
+        tests.env(VARIABLE, extent);
+    }
+    let tests = tests
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
         .args(words)
         .env("PYTHONPATH", folder.join("package"))

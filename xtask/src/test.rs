@@ -51,10 +51,14 @@ pub(crate) fn run(words: &[String]) -> u8 {
         return 1;
     }
     out(&format!("{why}\n"));
-    match tests(extent) {
+    let extent = match extent {
+        Extent::Full => ALL.to_owned(),
+        Extent::Part(part) => part.to_string(),
+    };
+    match tests(&extent) {
         Ok((status, mut summary)) => {
             summary.failed_elsewhere |= !status.success();
-            let of_python = python::after_tests();
+            let of_python = python::after_tests(&extent);
             summary.failed_elsewhere |= of_python != 0;
             out(&format!("\n{summary}\n"));
             status_of(status).max(of_python)
@@ -91,14 +95,10 @@ fn extent(asked: Option<String>) -> Result<(Extent, String), String> {
 }
 
 /// Runs cargo, shows everything it prints as it comes, and adds up the results.
-fn tests(extent: Extent) -> std::io::Result<(ExitStatus, Summary)> {
-    let value = match extent {
-        Extent::Full => ALL.to_owned(),
-        Extent::Part(part) => part.to_string(),
-    };
+fn tests(extent: &str) -> std::io::Result<(ExitStatus, Summary)> {
     let mut child = cargo()
         .args(["test", "--workspace", "--no-fail-fast"])
-        .env(VARIABLE, value)
+        .env(VARIABLE, extent)
         .stdout(Stdio::piped())
         .spawn()?;
     let mut summary = Summary::default();

@@ -22,6 +22,7 @@
 //! # Ok::<(), String>(())
 //! ```
 
+pub mod checker;
 pub mod disk;
 
 pub use chetaev_compile as compile;

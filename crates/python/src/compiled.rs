@@ -1,5 +1,6 @@
 //! Equations of motion as functions over NumPy arrays.
 
+use crate::address::Door;
 use crate::problem;
 use chetaev::compile::{
     backend, Backend, BlockEvaluator, EvaluateFailure, Evaluator, Lanes, Lowering, Workspace, LANES,
@@ -10,7 +11,8 @@ use chetaev::motion::functions::FunctionsError;
 use chetaev::motion::{Binding, NumericError};
 use chetaev::symbolic::{Expr, Graph};
 use numpy::{
-    PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+    PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -43,30 +45,105 @@ pub(crate) struct Compiled {
     binding: Binding,
     /// Accelerations, then the multipliers of the independent constraints.
     unknowns: Vec<Expr>,
+    /// What the model defines by names, as functions of the state.
+    definitions: Vec<(String, Expr)>,
     known: [OnceLock<Arc<Program>>; WHAT.len()],
 }
 
 /// What can be asked for.
-const WHAT: [&str; 5] = ["rates", "jacobian", "mass", "reactions", "residuals"];
+const WHAT: [&str; 6] = [
+    "rates",
+    "jacobian",
+    "mass",
+    "reactions",
+    "residuals",
+    "definitions",
+];
 
 /// Expressions as machine code.
-struct Program {
+pub(crate) struct Program {
     backend: Backend,
+    /// Number of components of the state.
+    width: usize,
     /// Shape of the values at one state.
     shape: Vec<usize>,
     /// Where the values that are not zero identically belong.
     places: Vec<usize>,
 }
 
+/// Storage of one thread.
+pub(crate) struct Ready {
+    workspace: Workspace,
+    inputs: Vec<f64>,
+    computed: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Program {
+    /// Number of components of the state.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of values at one state.
+    pub(crate) fn size(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Storage for these values of the parameters.
+    ///
+    /// # Errors
+    /// A matrix of parameters alone is singular.
+    pub(crate) fn ready(&self, parameters: &[f64]) -> Result<Ready, EvaluateFailure> {
+        let mut workspace = self.backend.workspace();
+        self.backend.prepare(parameters, &mut workspace)?;
+        Ok(Ready {
+            workspace,
+            inputs: vec![0.0; self.width + 1],
+            computed: vec![0.0; self.places.len()],
+            values: vec![0.0; self.size()],
+        })
+    }
+
+    /// The values at a state; not a number where there are none.
+    pub(crate) fn at<'a>(
+        &self,
+        ready: &'a mut Ready,
+        t: f64,
+        y: impl Iterator<Item = f64>,
+    ) -> &'a [f64] {
+        ready.inputs[0] = t;
+        for (own, y) in ready.inputs[1..].iter_mut().zip(y) {
+            *own = y;
+        }
+        let done = self
+            .backend
+            .evaluate(&ready.inputs, &mut ready.workspace, &mut ready.computed);
+        if done.is_err() {
+            ready.computed.fill(f64::NAN);
+        }
+        for (&place, &value) in self.places.iter().zip(&ready.computed) {
+            ready.values[place] = value;
+        }
+        &ready.values
+    }
+}
+
 impl Compiled {
-    pub(crate) fn new(system: &System) -> Result<Compiled, NotCompiled> {
+    /// The functions of a system; `defined` are names with expressions, of which those are taken that the state determines.
+    pub(crate) fn new(
+        system: &System,
+        defined: Vec<(String, Expr)>,
+    ) -> Result<Compiled, NotCompiled> {
         let prepared = Prepared::new(system)?;
         if prepared.terms.order > 1 {
             return Err(NotCompiled::Order(prepared.terms.order));
         }
         let binding = Binding::new(system)?;
+        let unknowns = unknowns(system, &prepared)?;
         Ok(Compiled {
-            unknowns: unknowns(system, &prepared)?,
+            definitions: determined(system, (&prepared, &binding), &unknowns, defined),
+            unknowns,
             system: system.clone(),
             prepared,
             binding,
@@ -110,6 +187,11 @@ impl Compiled {
                 let count = all.len();
                 (lawful(&all), vec![count])
             }
+            "definitions" => {
+                let all: Vec<Expr> = self.definitions.iter().map(|own| own.1).collect();
+                let count = all.len();
+                (all, vec![count])
+            }
             _ => (lawful(&terms.constraints), vec![terms.constraints.len()]),
         }
     }
@@ -145,6 +227,39 @@ fn unknowns(system: &System, prepared: &Prepared) -> Result<Vec<Expr>, Functions
         .map_err(|_| FunctionsError::Singular)
 }
 
+/// The definitions that are functions of (t, q, v) once accelerations and multipliers are those of the motion.
+fn determined(
+    system: &System,
+    (prepared, binding): (&Prepared, &Binding),
+    unknowns: &[Expr],
+    defined: Vec<(String, Expr)>,
+) -> Vec<(String, Expr)> {
+    let g = &system.graph;
+    let accelerations = system.coordinates.iter().map(|c| g.symbol_expr(c.a_symbol));
+    let rows = prepared.selection.rows.iter();
+    let multipliers = rows.map(|&row| {
+        let constraint = &system.constraints[prepared.terms.constraint_index[row]];
+        g.symbol(&format!("lambda_{}", constraint.name), 0)
+    });
+    let known: Vec<(Expr, Expr)> = accelerations
+        .chain(multipliers)
+        .zip(unknowns.iter().copied())
+        .collect();
+    let parameters = binding.parameters.iter().map(|own| own.0);
+    let given: Vec<_> = binding
+        .variables
+        .iter()
+        .copied()
+        .chain(parameters)
+        .collect();
+    let value = |(name, value): (String, Expr)| {
+        let value = g.substitute(g.substitute(value, &known), &binding.controls);
+        let is_given = g.symbols_in(&[value]).iter().all(|own| given.contains(own));
+        is_given.then_some((name, value))
+    };
+    defined.into_iter().filter_map(value).collect()
+}
+
 fn program(
     g: &Graph,
     binding: &Binding,
@@ -160,6 +275,7 @@ fn program(
         .output("values", &values);
     Ok(Program {
         backend: backend(lowering.lower()?)?,
+        width: binding.variables.len() - 1,
         shape,
         places,
     })
@@ -181,6 +297,12 @@ impl Compiled {
         let all = self.prepared.terms.constraint_index.iter();
         all.map(|&l| self.system.constraints[l].name.as_str())
             .collect()
+    }
+
+    /// Names of what the model defines, one for each component of the definitions.
+    #[getter]
+    fn definitions(&self) -> Vec<&str> {
+        self.definitions.iter().map(|own| own.0.as_str()).collect()
     }
 
     /// Names and values of the parameters.
@@ -209,16 +331,15 @@ impl Compiled {
             .map_err(|problem| problem::of_option(py, &problem))?;
         let usual = || self.binding.parameters.iter().map(|own| own.1).collect();
         let parameters = parameters.unwrap_or_else(usual);
+        let ready = program
+            .ready(&parameters)
+            .map_err(|problem| problem::of_option(py, &problem))?;
         let function = Function {
-            width: self.binding.variables.len() - 1,
             program,
             parameters,
-            ready: Mutex::default(),
+            ready: Mutex::new(vec![ready]),
+            door: OnceLock::new(),
         };
-        let ready = function
-            .prepared()
-            .map_err(|problem| problem::of_option(py, &problem))?;
-        function.give_back(ready);
         Ok(function)
     }
 }
@@ -241,60 +362,31 @@ impl Compiled {
 #[pyclass(frozen, module = "chetaev.chetaev_native")]
 pub(crate) struct Function {
     program: Arc<Program>,
-    width: usize,
     parameters: Vec<f64>,
     /// Storage that no thread uses at present.
     ready: Mutex<Vec<Ready>>,
+    /// How other programs call it, once one was asked for.
+    door: OnceLock<Door>,
 }
 
-/// Storage of one thread.
-struct Ready {
-    workspace: Workspace,
-    inputs: Vec<f64>,
-    computed: Vec<f64>,
-    values: Vec<f64>,
-}
+/// So many states are computed one by one: a block takes the time of several.
+const FEW: usize = 4;
 
 impl Function {
-    fn size(&self) -> usize {
-        self.program.shape.iter().product()
+    /// Does something with storage that no other thread uses meanwhile.
+    fn with_ready<T>(&self, work: impl FnOnce(&mut Ready) -> T) -> Result<T, EvaluateFailure> {
+        let known = self.free().pop();
+        let mut ready = match known {
+            Some(ready) => ready,
+            None => self.program.ready(&self.parameters)?,
+        };
+        let done = work(&mut ready);
+        self.free().push(ready);
+        Ok(done)
     }
 
-    fn prepared(&self) -> Result<Ready, EvaluateFailure> {
-        let mut free = self.ready.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(ready) = free.pop() {
-            return Ok(ready);
-        }
-        drop(free);
-        let own = &self.program.backend;
-        let mut workspace = own.workspace();
-        own.prepare(&self.parameters, &mut workspace)?;
-        Ok(Ready {
-            workspace,
-            inputs: vec![0.0; self.width + 1],
-            computed: vec![0.0; self.program.places.len()],
-            values: vec![0.0; self.size()],
-        })
-    }
-
-    fn give_back(&self, ready: Ready) {
-        let mut free = self.ready.lock().unwrap_or_else(PoisonError::into_inner);
-        free.push(ready);
-    }
-
-    /// Computes the values at the inputs.
-    fn compute(&self, ready: &mut Ready) {
-        let program = &self.program;
-        let done =
-            program
-                .backend
-                .evaluate(&ready.inputs, &mut ready.workspace, &mut ready.computed);
-        if done.is_err() {
-            ready.computed.fill(f64::NAN);
-        }
-        for (&place, &value) in program.places.iter().zip(&ready.computed) {
-            ready.values[place] = value;
-        }
+    fn free(&self) -> std::sync::MutexGuard<'_, Vec<Ready>> {
+        self.ready.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// One state.
@@ -304,22 +396,12 @@ impl Function {
         y: &PyReadonlyArray1<'_, f64>,
         write: impl FnOnce(&[f64]) -> PyResult<Py<PyAny>>,
     ) -> PyResult<Py<PyAny>> {
-        let mut ready = self
-            .prepared()
-            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-        ready.inputs[0] = t;
-        match y.as_slice() {
-            Ok(y) => ready.inputs[1..].copy_from_slice(y),
-            Err(_) => {
-                for (own, y) in ready.inputs[1..].iter_mut().zip(y.as_array()) {
-                    *own = *y;
-                }
-            }
-        }
-        self.compute(&mut ready);
-        let written = write(&ready.values);
-        self.give_back(ready);
-        written
+        let program = &self.program;
+        let done = self.with_ready(|ready| match y.as_slice() {
+            Ok(y) => write(program.at(ready, t, y.iter().copied())),
+            Err(_) => write(program.at(ready, t, y.as_array().iter().copied())),
+        });
+        done.map_err(|problem| PyValueError::new_err(problem.to_string()))?
     }
 
     /// Many states; `values` has a row for each.
@@ -329,20 +411,34 @@ impl Function {
         y: numpy::ndarray::ArrayView2<'_, f64>,
         values: &mut [f64],
     ) -> Result<(), EvaluateFailure> {
+        let (size, count) = (self.program.size(), y.nrows());
+        let time = |j: usize| t[if t.len() == 1 { 0 } else { j }];
+        if size == 0 {
+            return Ok(());
+        }
+        if count < FEW {
+            return self.with_ready(|ready| {
+                for (j, row) in values.chunks_exact_mut(size).enumerate() {
+                    let state = y.row(j);
+                    row.copy_from_slice(self.program.at(ready, time(j), state.iter().copied()));
+                }
+            });
+        }
         let own = &self.program.backend;
-        let size = self.size();
         let mut workspace = own.block_workspace();
         let parameters: Vec<Lanes> = self.parameters.iter().map(|&p| Lanes::splat(p)).collect();
         own.prepare_block(&parameters, &mut workspace)?;
-        let count = y.nrows();
-        let mut inputs = vec![Lanes::default(); self.width + 1];
+        let mut inputs = vec![Lanes::default(); self.program.width + 1];
         let mut computed = vec![Lanes::default(); self.program.places.len()];
         for first in (0..count).step_by(LANES) {
             let last = (first + LANES).min(count) - 1;
             let at = |lane: usize| (first + lane).min(last);
-            inputs[0] = Lanes::from_fn(|lane| t[if t.len() == 1 { 0 } else { at(lane) }]);
-            for (i, input) in inputs[1..].iter_mut().enumerate() {
-                *input = Lanes::from_fn(|lane| y[[at(lane), i]]);
+            inputs[0] = Lanes::from_fn(|lane| time(at(lane)));
+            for lane in 0..LANES {
+                let state = y.row(at(lane));
+                for (input, &y) in inputs[1..].iter_mut().zip(state) {
+                    input.as_mut_slice()[lane] = y;
+                }
             }
             own.evaluate_block(1, &inputs, &mut workspace, &mut computed)?;
             let rows = &mut values[first * size..(last + 1) * size];
@@ -360,6 +456,12 @@ impl Function {
         Ok(())
     }
 
+    /// How other programs call this function.
+    fn door(&self) -> &Door {
+        self.door
+            .get_or_init(|| Door::new(self.program.clone(), &self.parameters))
+    }
+
     /// What is no vector of doubles: sequences, other numbers, batches.
     fn general<'py>(
         &self,
@@ -370,21 +472,21 @@ impl Function {
         let numpy = py.import("numpy")?;
         let doubles = PyDict::new(py);
         doubles.set_item("dtype", "f8")?;
-        let y = numpy.call_method("asarray", (y,), Some(&doubles))?;
+        let y = numpy.call_method("asarray", (array(&numpy, y)?,), Some(&doubles))?;
         let t = numpy.call_method("asarray", (t,), Some(&doubles))?;
         let mut shape: Vec<usize> = y.getattr("shape")?.extract()?;
         let last = shape.pop();
-        if last != Some(self.width) {
+        if last != Some(self.program.width) {
             return Err(PyValueError::new_err(format!(
                 "the last axis of y has the {} components of the state, not {}",
-                self.width,
+                self.program.width,
                 last.map_or("none".to_owned(), |own| own.to_string())
             )));
         }
         let count: usize = shape.iter().product();
         let rows = match shape.len() {
             1 => y.clone(),
-            _ => y.call_method1("reshape", ((count, self.width),))?,
+            _ => y.call_method1("reshape", ((count, self.program.width),))?,
         };
         let t = match t.getattr("ndim")?.extract::<usize>()? {
             0 => t.call_method1("reshape", (1,))?,
@@ -397,6 +499,7 @@ impl Function {
         let target = match out {
             None => PyArrayDyn::<f64>::zeros(py, whole.clone(), false),
             Some(out) => {
+                let out = array(&numpy, out)?;
                 let out = out
                     .cast::<PyArrayDyn<f64>>()
                     .map_err(|_| PyTypeError::new_err("out is an array of doubles (float64)"))?;
@@ -417,14 +520,26 @@ impl Function {
         let values = write
             .as_slice_mut()
             .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-        if out.is_some() {
+        if out.is_some() && self.program.places.len() < self.program.size() {
             values.fill(0.0);
         }
         let (t, y) = (t.as_array(), y.as_array());
         let done = py.detach(|| self.many(t, y, values));
         done.map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-        Ok(target.into_any())
+        Ok(out.cloned().unwrap_or_else(|| target.into_any()))
     }
+}
+
+/// What is no array of NumPy and offers its memory by DLPack, as an array of the same memory.
+fn array<'py>(
+    numpy: &Bound<'py, PyModule>,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let is_known = value.cast::<PyUntypedArray>().is_ok();
+    if !is_known && value.hasattr("__dlpack__")? {
+        return numpy.call_method1("from_dlpack", (value,));
+    }
+    Ok(value.clone())
 }
 
 #[pymethods]
@@ -438,7 +553,8 @@ impl Function {
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
         let single = y.cast::<PyArray1<f64>>().ok();
-        let single = single.filter(|y| y.len() == self.width && self.program.shape.len() == 1);
+        let single =
+            single.filter(|y| y.len() == self.program.width && self.program.shape.len() == 1);
         let (Some(single), Ok(time)) = (single, t.extract::<f64>()) else {
             return Ok(self.general(py, (t, y), out)?.unbind());
         };
@@ -449,21 +565,47 @@ impl Function {
             None => self.one(time, &y, |values| {
                 Ok(PyArray1::from_slice(py, values).into_any().unbind())
             }),
-            Some(Ok(target)) if target.len() == self.size() => self.one(time, &y, |values| {
-                let mut write = target
-                    .try_readwrite()
-                    .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-                let own = write
-                    .as_slice_mut()
-                    .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-                own.copy_from_slice(values);
-                Ok(target.clone().into_any().unbind())
-            }),
+            Some(Ok(target)) if target.len() == self.program.size() => {
+                self.one(time, &y, |values| {
+                    let mut write = target
+                        .try_readwrite()
+                        .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+                    let own = write
+                        .as_slice_mut()
+                        .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+                    own.copy_from_slice(values);
+                    Ok(target.clone().into_any().unbind())
+                })
+            }
             Some(_) => Err(PyTypeError::new_err(format!(
                 "out is a vector of {} doubles (float64)",
-                self.size()
+                self.program.size()
             ))),
         }
+    }
+
+    /// Where the function `void f(double t, double *y, double *values, double *data)` is, for callers that know C only: Numba,
+    /// numbalsoda, SUNDIALS. `data` is that of this object.
+    #[getter]
+    fn address(&self) -> usize {
+        self.door().address()
+    }
+
+    /// What such a caller hands over as `data`: which function is meant, then the parameters in their order, which may be changed.
+    /// It serves as long as this object lives.
+    #[getter]
+    fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.door().data(&self.parameters))
+    }
+
+    /// The function at `address` as `ctypes` has it.
+    #[getter]
+    fn ctypes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let ctypes = py.import("ctypes")?;
+        let (double, pointer) = (ctypes.getattr("c_double")?, ctypes.getattr("c_void_p")?);
+        let arguments = (py.None(), double, &pointer, &pointer, &pointer);
+        let signature = ctypes.call_method1("CFUNCTYPE", arguments)?;
+        signature.call1((self.address(),))
     }
 
     /// Whether machine code runs.

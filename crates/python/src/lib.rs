@@ -2,9 +2,10 @@
 //!
 //! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
 //!
-//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function; `sweep`: many trajectories; `functional`: a functional over space;
+//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function, `address`: the same for callers that know C only; `sweep`: many trajectories; `functional`: a functional over space;
 //! - `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
 
+mod address;
 mod compiled;
 mod functional;
 mod linear;
@@ -27,7 +28,7 @@ mod chetaev_native {
     #[pymodule_export]
     use crate::linear::Linear;
     #[pymodule_export]
-    use crate::model::{explain, gallery, robot, verify, Model};
+    use crate::model::{checker, explain, gallery, robot, verify, Model};
     #[pymodule_export]
     use crate::outcome::Outcome;
     #[pymodule_export]

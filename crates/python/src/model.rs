@@ -341,16 +341,7 @@ impl Model {
             let said = format!("there is no notation `{notation}`");
             return Err(problem::of_option(py, &said));
         };
-        let mut asked: Vec<&'static dyn Formulation> = Vec::new();
-        if all {
-            asked.extend(FORMULATIONS)
-        } else {
-            for name in &names {
-                let known = formulation(name)
-                    .ok_or_else(|| problem::of_option(py, &NotWritten::Unknown(name.clone())))?;
-                asked.push(known);
-            }
-        }
+        let asked = formulations(py, &names, all)?;
         self.with_equations(py, tell, |cx, show| {
             let mut told = |one: &'static dyn Formulation, found: Option<&Result<_, _>>| {
                 if found.is_none() {
@@ -358,6 +349,22 @@ impl Model {
                 }
             };
             written::equations(cx, &asked, (notation, all), &mut told)
+        })
+    }
+
+    /// The operations of the equations of formulations, a line for each, and notes: `derive --count`.
+    #[pyo3(signature = (names, all, tell=None))]
+    fn count(
+        &self,
+        py: Python<'_>,
+        names: Vec<String>,
+        all: bool,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let asked = formulations(py, &names, all)?;
+        self.with_equations(py, tell, |cx, show| {
+            show("deriving and simplifying");
+            written::counts(cx, &asked, all)
         })
     }
 
@@ -516,8 +523,11 @@ impl Model {
     /// The equations of motion as functions of numbers.
     fn compile(&self, py: Python<'_>) -> PyResult<Compiled> {
         let system = self.system(py)?;
+        let model = &self.model;
+        let defined = model.defines.iter().chain(&model.sensors);
+        let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
         let found = waiting::done(py, None, |hooks| {
-            interruptible(hooks, |_| Compiled::new(&system))
+            interruptible(hooks, |_| Compiled::new(&system, defined))
         })?;
         match found.result {
             Err(_) => Err(PyKeyboardInterrupt::new_err(())),
@@ -525,6 +535,28 @@ impl Model {
             Ok(Err(problem)) => Err(problem::of_system(py, &problem, self.place())),
         }
     }
+}
+
+/// Formulations by their names, or all of them.
+fn formulations(
+    py: Python<'_>,
+    names: &[String],
+    all: bool,
+) -> PyResult<Vec<&'static dyn Formulation>> {
+    if all {
+        return Ok(FORMULATIONS.to_vec());
+    }
+    let known = |name: &String| {
+        let found = formulation(name);
+        found.ok_or_else(|| problem::of_option(py, &NotWritten::Unknown(name.clone())))
+    };
+    names.iter().map(known).collect()
+}
+
+/// Names and texts of the files of the checker, a program in Python that shares nothing with this one.
+#[pyfunction]
+pub(crate) fn checker() -> Vec<(&'static str, &'static str)> {
+    chetaev::checker::FILES.to_vec()
 }
 
 /// What a claim or a formulation states, in words and as JSON; all claims without a name.

@@ -2,66 +2,13 @@
 
 use super::super::error;
 use crate::{DONE, INPUT, UNMET};
+use chetaev::checker::FILES;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Exit status for what is asked of a Python.
 const TOO_OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
-
-macro_rules! files {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../../../checker/", $name)))),*]
-    };
-}
-
-/// The checker, as it stands in the repository.
-const FILES: &[(&str, &str)] = files![
-    "check_study.py",
-    "closure.py",
-    "densities.py",
-    "differentials.py",
-    "equations.py",
-    "expressions.py",
-    "fields.py",
-    "functionals.py",
-    "index_notation.py",
-    "intervals.py",
-    "jets.py",
-    "reduced.py",
-    "rules.py",
-    "systems.py",
-    "variations.py",
-    "claims/actions.py",
-    "claims/closed_forms.py",
-    "claims/contents.py",
-    "claims/degeneration.py",
-    "claims/degrees.py",
-    "claims/descent.py",
-    "claims/dimensions.py",
-    "claims/duality.py",
-    "claims/extremum.py",
-    "claims/first_variation.py",
-    "claims/forms.py",
-    "claims/frobenius.py",
-    "claims/geometry.py",
-    "claims/hoelder.py",
-    "claims/identities.py",
-    "claims/integrals.py",
-    "claims/legendre.py",
-    "claims/measure.py",
-    "claims/multiplier.py",
-    "claims/noether.py",
-    "claims/positive.py",
-    "claims/principles.py",
-    "claims/ranks.py",
-    "claims/rates.py",
-    "claims/second_kind.py",
-    "claims/stated.py",
-    "claims/stationary.py",
-    "claims/suslov.py",
-    "claims/volterra.py",
-];
 
 /// Runs the checker on a record; its output is that of this process.
 pub(super) fn run(record: &Path, json: bool) -> u8 {
