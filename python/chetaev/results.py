@@ -237,6 +237,19 @@ class Steady(Result):
         return list(self.to_dict()["motions"])
 
 
+class Followed(Result):
+    """Steady motions or orbits over a range of a parameter: ``points`` with their eigenvalues or multipliers, ``special`` ones."""
+
+    @property
+    def points(self) -> list[dict[str, Any]]:
+        return list(self.to_dict()["points"])
+
+    @property
+    def special(self) -> list[dict[str, Any]]:
+        """Folds, branch points, Hopf points, multipliers on the unit circle."""
+        return list(self.to_dict()["special"])
+
+
 class Linearization(Result):
     """Linear equations ``E z' = F z`` about a steady motion, exact."""
 

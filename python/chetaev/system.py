@@ -16,8 +16,10 @@ from .results import (
     Counts,
     Derivation,
     Film,
+    Followed,
     Linearization,
     Picture,
+    Result,
     Stability,
     Steady,
     Study,
@@ -26,6 +28,9 @@ from .results import (
 from .texts import exact, toml
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from .compiled import Compiled
     from .exported import Exported
     from .sweeps import Sweep
@@ -668,6 +673,68 @@ class System:
         with _Progress(progress) as tell:
             found = self._native.stability(_wanted(about=about, over=over, at=at), tell)
         return Stability(self, found, found.ranges())
+
+    def follow(
+        self,
+        *,
+        about: str | None = None,
+        over: str | None = None,
+        orbit: bool = False,
+        period: str | None = None,
+        points: int = 500,
+        progress: bool = False,
+    ) -> Followed:
+        """Follows steady motions or periodic orbits over a range of a parameter, in numbers.
+
+        Parameters
+        ----------
+        about : str, optional
+            As in :meth:`linearize`; what is near it is searched.
+        over : str, optional
+            A parameter with a range, ``"eps=0.1:1"``; without it one motion is found.
+        orbit : bool
+            Periodic orbits, from the initial state or the motion named.
+        period : str, optional
+            The period of orbits, an expression of parameters; a guess of it where the equations do not contain the time.
+        points : int
+            At most so many on each side of the start.
+        """
+        with _Progress(progress) as tell:
+            text, data = self._native.follow(about, over, orbit, period, points, tell)
+        return Followed(json.loads(data), text)
+
+    def along(self, *, progress: bool = False) -> Result:
+        """Linear equations along the motion from the initial state: A(t), the transition matrix and its exponents, in numbers."""
+        with _Progress(progress) as tell:
+            text, data = self._native.along(tell)
+        return Result(json.loads(data), text)
+
+    def sensitivity(
+        self, by: str | Iterable[str], times: Iterable[float], *, second: bool = False, progress: bool = False
+    ) -> dict[str, NDArray[np.float64]]:
+        """Derivatives of coordinates and velocities by parameters and given initial values, by the variational equations.
+
+        Parameters
+        ----------
+        by : str or list of str
+            Names of parameters and of given initial values, ``"a,x'"``.
+        times : list of float
+            Where they are wanted, ascending from the start.
+        second : bool
+            The second derivatives too.
+
+        Returns
+        -------
+        dict
+            A column for each of ``t``, ``x``, ``d x/d a``, ``d2 x/d a d b``.
+        """
+        import numpy as np
+
+        names = by if isinstance(by, str) else ",".join(by)
+        with _Progress(progress) as tell:
+            columns, rows = self._native.sensitivity(names, second, [float(t) for t in times], tell)
+        table = np.array(rows, dtype=np.float64).reshape(-1, len(columns))
+        return {name: table[:, place].copy() for place, name in enumerate(columns)}
 
     def compile(self, **values: float) -> Compiled:
         """The equations of motion as functions of NumPy arrays, with the values of the model or these ones.

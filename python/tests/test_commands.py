@@ -40,6 +40,9 @@ NOT_KEYWORDS_OF = {
     ("study", "show"): "all verdicts are in the result",
     ("principles", "all"): "all verdicts are in the result",
     ("check", "lowered"): "the method lowered",
+    ("linearize", "along"): "the method along",
+    ("simulate", "sensitivity"): "the method sensitivity",
+    ("simulate", "second"): "a keyword of the method sensitivity",
 }
 
 
@@ -144,6 +147,11 @@ def test_other_results_are_the_json(sleigh: System, command: Any, gallery: Path)
     path = str(gallery / MODEL / "model.toml")
     assert sleigh.check().to_dict() == command("check", path)
     assert sleigh.linearize().to_dict() == command("linearize", path)
+    assert sleigh.along().to_dict() == command("linearize", path, "--along")
+    governor = str(gallery / "watt-governor" / "model.toml")
+    assert System.from_file(governor).follow(over="eps=0.1:1").to_dict() == command("follow", governor, "--over", "eps=0.1:1")
+    varied = sleigh.sensitivity("a", [0.0, 1.0, 2.0])
+    assert varied["d x/d a"][0] == 0.0 and len(varied["d phi'/d a"]) == 3
     assert sleigh.stability(over="ahead=-2:2").to_dict() == command("stability", path, "--over", "ahead=-2:2")
     assert chetaev.explain().to_dict() == command("explain")
     assert chetaev.explain("energy.integral").to_dict() == command("explain", "energy.integral")

@@ -35,6 +35,7 @@ pub use chetaev_integrate as integrate;
 pub use chetaev_mechanics as mechanics;
 pub use chetaev_model as model;
 pub use chetaev_motion as motion;
+pub use chetaev_orbits as orbits;
 pub use chetaev_principles as principles;
 pub use chetaev_stability as stability;
 pub use chetaev_study as study;

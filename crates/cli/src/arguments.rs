@@ -40,6 +40,8 @@ pub(crate) enum Command {
     Linearize(Linearize),
     /// Decide the stability of a steady motion, also over a range of a parameter, with enclosed boundaries
     Stability(Stability),
+    /// Follow steady motions or periodic orbits over a range of a parameter, with folds, branch points, Hopf points and multipliers
+    Follow(Follow),
     /// Compute thousands of motions: parameters and initial values over ranges, from rows of a file, or at random
     Sweep(Sweep),
     /// Read a model and report everything wrong or doubtful in it
@@ -162,6 +164,9 @@ pub(crate) struct Linearize {
     /// Write to a file in the format of its end: .npz (NumPy), .mat (MATLAB), .py (python-control), .tex, .json or .txt
     #[arg(long, value_name = "FILE")]
     pub(crate) save: Option<PathBuf>,
+    /// Linearize along the motion from the initial state: A(t), the transition matrix and its exponents
+    #[arg(long, conflicts_with_all = ["about", "at", "speeds", "outputs", "symbolic", "save"])]
+    pub(crate) along: bool,
     /// Print JSON: matrices as exact text, eigenvalues as pairs
     #[arg(long)]
     pub(crate) json: bool,
@@ -179,6 +184,35 @@ pub(crate) struct Steady {
     #[arg(long)]
     pub(crate) symbolic: bool,
     /// Print JSON: values as exact text with their enclosures, families with their equations
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev follow gallery/watt-governor/model.toml --over eps=0.1:1
+  chetaev follow gallery/kapitza-pendulum/model.toml --about rest --set push=0 --orbit --period \"2 pi/Omega\" --over Omega=90:110
+  chetaev follow gallery/double-pendulum/model.toml --about 1 --over g=1:20
+  chetaev follow model.toml --orbit")]
+pub(crate) struct Follow {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// A motion of [steady.NAME], the number of one that `chetaev steady` finds, rest or start: what is near it is searched
+    #[arg(long, value_name = "NAME")]
+    pub(crate) about: Option<String>,
+    /// A parameter with a range, exact numbers: --over eps=0.1:1; without it one motion is found at the values of the model
+    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
+    pub(crate) over: Option<String>,
+    /// Follow periodic orbits, from the initial state or a named motion
+    #[arg(long)]
+    pub(crate) orbit: bool,
+    /// The period, an expression of parameters; a guess of it where the equations do not contain the time
+    #[arg(long, value_name = "T", requires = "orbit")]
+    pub(crate) period: Option<String>,
+    /// At most so many points on each side of the start
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    pub(crate) points: usize,
+    /// Print JSON: points with their eigenvalues or multipliers, and special points
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -332,6 +366,12 @@ pub(crate) struct Simulate {
     /// Folder to write trajectory.csv and trajectory.npz into
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
+    /// Write sensitivity.csv beside: derivatives of coordinates and velocities by parameters and given initial values
+    #[arg(long, value_name = "NAME,...")]
+    pub(crate) sensitivity: Option<String>,
+    /// Write the second derivatives too
+    #[arg(long, requires = "sensitivity")]
+    pub(crate) second: bool,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
     /// Print a record of the run as JSON

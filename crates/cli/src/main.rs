@@ -37,6 +37,7 @@ fn main() -> ExitCode {
         Command::Steady(a) => commands::stability::find(&a),
         Command::Linearize(a) => commands::stability::linearize(&a),
         Command::Stability(a) => commands::stability::run(&a),
+        Command::Follow(a) => commands::as_a_whole(|| commands::follow::run(&a)),
         Command::Sweep(a) => commands::sweep::run(&a),
         Command::Check(a) => commands::as_a_whole(|| commands::check::run(&a)),
         Command::Explain(a) => commands::explain::run(&a),

@@ -38,7 +38,7 @@ pub mod repeat;
 pub mod row;
 pub mod run;
 pub mod scales;
-mod series;
+pub mod series;
 mod sticking;
 pub mod stop;
 mod turns;

@@ -33,7 +33,7 @@ pub(crate) fn cost(program: &Program) -> Result<usize, FunctionsError> {
 
 /// The rates of a state (z₁, …, z_m), functions of (t, z), by their Taylor recurrences.
 #[derive(Clone, Debug)]
-pub(crate) struct RateSeries {
+pub struct RateSeries {
     taylor: Taylor,
     workspace: TaylorWorkspace,
     parameters: Vec<f64>,
@@ -71,7 +71,7 @@ impl RateSeries {
     ///
     /// # Errors
     /// [`FunctionsError`].
-    pub(crate) fn new(
+    pub fn new(
         g: &Graph,
         binding: &Binding,
         variables: &[Symbol],
@@ -106,7 +106,7 @@ impl RateSeries {
     ///
     /// # Errors
     /// [`FunctionsError::Prepare`].
-    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
         self.parameters.clear();
         self.parameters.extend_from_slice(values);
         (self.ahead, self.end) = (Ahead::default(), Ahead::default());
@@ -122,7 +122,7 @@ impl RateSeries {
     ///
     /// # Errors
     /// Why the rates have no Taylor series there.
-    pub(crate) fn expand(
+    pub fn expand(
         &mut self,
         t: f64,
         z: &[f64],

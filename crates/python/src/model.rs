@@ -10,12 +10,13 @@ use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORM
 use chetaev::model::model::{ModelText, Precision};
 use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
+use chetaev::orbits::variational::Order;
 use chetaev::study::steady::steady;
 use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
 use chetaev::study::{
-    beside, check, diagnostics, explanation, interruptible, registry, stability, study,
-    ClaimSelection, StudyError, StudyOptions,
+    beside, check, diagnostics, explanation, follow, interruptible, registry, sensitivity,
+    stability, study, ClaimSelection, StudyError, StudyOptions,
 };
 use chetaev::symbolic::print::{sympy_module, Document, Options, PythonSection};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -138,6 +139,13 @@ impl Model {
                 problem::of_system(py, problem, self.place())
             }
             problem => problem::of_option(py, problem),
+        }
+    }
+
+    fn not_followed(&self, py: Python<'_>, problem: follow::FollowError) -> PyErr {
+        match problem {
+            follow::FollowError::System(problem) => problem::of_system(py, &problem, self.place()),
+            other => problem::of_option(py, &other),
         }
     }
 
@@ -484,6 +492,87 @@ impl Model {
             Err(_) => Err(PyKeyboardInterrupt::new_err(())),
             Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
             Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+        }
+    }
+
+    /// Steady motions or periodic orbits over a range of a parameter, in words and as JSON: `follow`.
+    #[pyo3(signature = (about, over, orbit, period, points, tell=None))]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the keywords of a method in Python"
+    )]
+    fn follow(
+        &self,
+        py: Python<'_>,
+        about: Option<String>,
+        over: Option<String>,
+        orbit: bool,
+        period: Option<String>,
+        points: usize,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String)> {
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("following", None);
+                let wanted = follow::Wanted {
+                    about: about.as_deref(),
+                    over: over.as_deref(),
+                    orbit,
+                    period: period.as_deref(),
+                    points: Some(points),
+                };
+                follow::follow(&self.model, &wanted).map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
+            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+        }
+    }
+
+    /// Linear equations along the motion from the initial state, in words and as JSON: `linearize --along`.
+    #[pyo3(signature = (tell=None))]
+    fn along(&self, py: Python<'_>, tell: Option<&Bound<'_, PyAny>>) -> PyResult<(String, String)> {
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("linear equations along the motion", None);
+                sensitivity::along_motion(&self.model).map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
+            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+        }
+    }
+
+    /// Names of columns and rows of numbers: `simulate --sensitivity`.
+    #[pyo3(signature = (by, second, times, tell=None))]
+    fn sensitivity(
+        &self,
+        py: Python<'_>,
+        by: &str,
+        second: bool,
+        times: Vec<f64>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(Vec<String>, Vec<Vec<f64>>)> {
+        let order = if second { Order::Second } else { Order::First };
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("sensitivities", None);
+                sensitivity::sensitivity(&self.model, by, order, &times).map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => {
+                let names = std::iter::once("t".to_owned()).chain(found.columns());
+                let rows = found.rows.iter();
+                let row = |(t, own): &(f64, Vec<f64>)| [vec![*t], own.clone()].concat();
+                Ok((names.collect(), rows.map(row).collect()))
+            }
+            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
         }
     }
 

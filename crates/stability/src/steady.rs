@@ -67,6 +67,38 @@ pub(crate) fn completed(
     })
 }
 
+/// A place of a coordinate on which nothing depends, away from the singular places of angles.
+const SOMEWHERE: f64 = 0.377;
+
+/// All positions and velocities of a motion in numbers, with those of parameters; `values` are exact ones of parameters. Coordinates that the
+/// motion leaves open are somewhere.
+///
+/// # Errors
+/// [`LinearizationError`] where the constraints do not determine the velocities that are not given.
+pub fn numbers(
+    motion: &SteadyMotion,
+    system: &System,
+    terms: &MotionTerms,
+    (rows, values): (&[usize], &[(Expr, Expr)]),
+) -> Result<Vec<(Symbol, f64)>, LinearizationError> {
+    let g = &system.graph;
+    let state = completed(motion, system, terms, rows, values)?;
+    let open = state.without_position.iter();
+    let open = open.map(|&j| system.coordinates[j].q_symbol);
+    let mut point: Vec<(Symbol, f64)> = open.map(|s| (s, SOMEWHERE)).collect();
+    let number = |e: Expr, known: &[(Symbol, f64)]| {
+        let e = g.substitute(e, values);
+        let find = |s: Symbol| known.iter().find(|own| own.0 == s).map(|own| own.1);
+        g.evaluate_f64(&[e], &find).ok().map(|found| found[0])
+    };
+    let somewhere = point.clone();
+    let known = values.iter().chain(&state.values);
+    point.extend(
+        known.filter_map(|&(symbol, e)| Some((g.as_symbol(symbol)?, number(e, &somewhere)?))),
+    );
+    Ok(point)
+}
+
 /// Expressions at a point: the lists of replacements one after the other, then closed forms.
 pub(crate) fn at_point(g: &Graph, es: &[Expr], replacements: &[&[(Expr, Expr)]]) -> Vec<Expr> {
     let mut es = es.to_vec();

@@ -7,7 +7,7 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`](mod@registry), with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble; [`steady`](mod@steady): all steady motions; [`stability`](mod@stability): linear equations about one; [`functional`]: summary, record
+//! - [`sweep`]: a model as an ensemble; [`steady`](mod@steady): all steady motions; [`stability`](mod@stability): linear equations about one; [`follow`](mod@follow): steady motions and orbits over a range of a parameter; [`sensitivity`](mod@sensitivity): derivatives of a motion; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
 //! - for people: [`derivation`], [`written`] (equations in every notation), [`explanation`],
 //!   [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
@@ -19,6 +19,7 @@ pub mod error;
 mod expectations;
 pub mod explanation;
 pub mod flat;
+pub mod follow;
 pub mod functional;
 pub mod jumps;
 mod kept;
@@ -36,6 +37,7 @@ mod plain;
 mod precise;
 pub mod record;
 pub mod registry;
+pub mod sensitivity;
 pub mod stability;
 mod start;
 pub mod state_space;

@@ -8,6 +8,7 @@
 
 mod data;
 pub(crate) mod error;
+mod hopf;
 mod text;
 
 pub use error::StabilityError;
@@ -319,7 +320,7 @@ fn in_speeds(
 }
 
 /// The motions that are looked at, the first one that is steady being taken.
-fn motions(
+pub(crate) fn motions(
     model: &Model,
     system: &System,
     about: Option<&str>,
@@ -379,7 +380,8 @@ fn motions(
     }
 }
 
-fn range(model: &Model, text: &str) -> Result<Range, StabilityError> {
+/// The range `NAME=FROM:TO` of a text.
+pub(crate) fn range(model: &Model, text: &str) -> Result<Range, StabilityError> {
     let wrong = || StabilityError::Range { text: text.into() };
     let (name, ends) = text.split_once('=').ok_or_else(wrong)?;
     let (low, high) = ends.split_once(':').ok_or_else(wrong)?;

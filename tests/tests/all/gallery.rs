@@ -26,6 +26,7 @@ const NAMES: &[&str] = &[
     "fixed-jerk",
     "heavy-top",
     "isokinetic-particle",
+    "kapitza-pendulum",
     "knife-edge-order-2",
     "knife-edge-order-3",
     "leaking-pendulum",
@@ -52,6 +53,7 @@ const NAMES: &[&str] = &[
     "third-order-linear",
     "trailer",
     "vertical-rolling-disc",
+    "watt-governor",
     "whipple-bicycle",
 ];
 

@@ -213,3 +213,98 @@ fn slips_are_named() {
         );
     }
 }
+
+/// Watt's governor: the proved critical value and the one that is followed agree, with the frequency and the first Lyapunov coefficient of the
+/// reference (Pontryagin 1962; Sotomayor, Mello and Braga 2007; by harmonic balance of small orbits).
+#[test]
+fn a_governor_hunts_from_a_hopf_point_on() {
+    let path = root().join("gallery/watt-governor/model.toml");
+    let range = ["--over", "eps=0.1:1", "--json"];
+    let proved = json(&[&["stability", text(&path)], &range[..]].concat());
+    let followed = json(&[&["follow", text(&path)], &range[..]].concat());
+    let (proved, followed) = (&proved["critical"], &followed["special"]);
+    assert_eq!(proved.as_array().unwrap().len(), 1);
+    assert_eq!(followed.as_array().unwrap().len(), 1);
+    assert_eq!(followed[0]["kind"], "Hopf");
+    for own in [&proved[0], &followed[0]] {
+        let number = |name: &str| own[name].as_f64().unwrap();
+        assert!((number("value") - 0.464_758_001_544_890_03).abs() < 1e-12);
+        assert!((number("frequency") - 1.032_795_558_988_644_5).abs() < 1e-12);
+        assert!((number("first_lyapunov") + 0.081_153_947_931_242_15).abs() < 1e-10);
+    }
+    // Below it the motion from the start tends to an orbit, which is found there and attracts.
+    let set = ["--set", "eps=0.4", "--orbit", "--json"];
+    let orbit = json(&[&["follow", text(&path)], &set[..]].concat());
+    assert_eq!(orbit["points"][0]["stability"], "stable");
+    assert_eq!(orbit["trivial"][0], "the direction along the orbit");
+}
+
+/// Kapitza's pendulum: the exact threshold is a characteristic value of Mathieu's equation (McLachlan 1947), not √(2 g l)/A = 99.0454.
+#[test]
+fn a_shaken_pendulum_stands_from_a_threshold_on() {
+    let path = root().join("gallery/kapitza-pendulum/model.toml");
+    let options = [
+        "--about",
+        "rest",
+        "--set",
+        "push=0",
+        "--orbit",
+        "--period",
+        "2 pi/Omega",
+        "--over",
+        "Omega=90:110",
+        "--json",
+    ];
+    let found = json(&[&["follow", text(&path)], &options[..]].concat());
+    let special = found["special"].as_array().unwrap();
+    assert_eq!(special.len(), 1);
+    let at = special[0]["value"].as_f64().unwrap();
+    assert!((at - 99.260_834_704_054_84).abs() < 1e-9, "{at}");
+}
+
+/// `--sensitivity` writes derivatives: those of a run beside it are near differences.
+#[test]
+fn sensitivities_are_near_differences() {
+    let path = root().join("gallery/chaplygin-sleigh/model.toml");
+    let folder = std::env::temp_dir().join(format!("chetaev-sensitivity-{}", std::process::id()));
+    let last = |name: &str, set: &str| -> Vec<(String, f64)> {
+        let out = folder.join(name);
+        let options = [
+            "--set",
+            set,
+            "--t-end",
+            "3",
+            "--tolerance",
+            "1e-13",
+            "--sensitivity",
+            "a",
+        ];
+        run(&[
+            &["simulate", text(&path), "--out", text(&out)],
+            &options[..],
+        ]
+        .concat());
+        let table = std::fs::read_to_string(out.join("sensitivity.csv")).unwrap();
+        let mut lines = table.lines();
+        let names = lines.next().unwrap().split(',').map(str::to_owned);
+        let values = lines.next_back().unwrap().split(',');
+        names.zip(values.map(|x| x.parse().unwrap())).collect()
+    };
+    let (low, middle, high) = (
+        last("a", "a=0.2499"),
+        last("b", "a=0.25"),
+        last("c", "a=0.2501"),
+    );
+    let at =
+        |table: &[(String, f64)], name: &str| table.iter().find(|own| own.0 == name).unwrap().1;
+    for name in ["x", "y", "phi", "x'", "phi'"] {
+        let difference = (at(&high, name) - at(&low, name)) / 2e-4;
+        let derivative = at(&middle, &format!("d {name}/d a"));
+        let error = (difference - derivative).abs();
+        assert!(
+            error < 1e-6 * (1.0 + derivative.abs()),
+            "{name}: {difference} {derivative}"
+        );
+    }
+    let _ = std::fs::remove_dir_all(folder);
+}

@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod derive;
 pub(crate) mod explain;
+pub(crate) mod follow;
 mod functional;
 pub(crate) mod gallery;
 pub(crate) mod import;

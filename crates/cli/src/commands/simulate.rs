@@ -3,6 +3,8 @@
 use super::{error, options, refuse, with_hooks};
 use crate::arguments::Simulate as Arguments;
 use crate::{files, terminal, INPUT};
+use chetaev::orbits::variational::Order;
+use chetaev::study::sensitivity::{sensitivity, to_csv};
 use chetaev::study::table::Table;
 use chetaev::study::{overview, record, study, ClaimSelection, StudyOptions};
 
@@ -46,9 +48,24 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         error(problem);
         return INPUT;
     }
+    let varied = match &arguments.sensitivity {
+        None => None,
+        Some(by) => match sensitivities(arguments, &read, (by, &table)) {
+            Ok(text) => Some(text),
+            Err(status) => return status,
+        },
+    };
+    if let Some(text) = &varied {
+        let path = folder.join("sensitivity.csv");
+        if let Err(problem) = files::write(&path, text.as_bytes()) {
+            error(problem);
+            return INPUT;
+        }
+    }
     if arguments.json {
         let mut names = vec!["trajectory.csv".to_string(), "trajectory.npz".to_string()];
         names.extend(events.map(|_| "events.csv".to_string()));
+        names.extend(varied.map(|_| "sensitivity.csv".to_string()));
         let run = record::run(&study, &names);
         terminal::out(&serde_json::to_string_pretty(&run).unwrap_or_default());
         terminal::out("\n");
@@ -60,4 +77,22 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         ));
     }
     study.outcome.exit_status()
+}
+
+/// The derivatives of the motion at the times of its table; the exit status where there are none.
+fn sensitivities(
+    arguments: &Arguments,
+    read: &files::Read,
+    (by, table): (&str, &Table),
+) -> Result<String, u8> {
+    let order = if arguments.second {
+        Order::Second
+    } else {
+        Order::First
+    };
+    let times = table.columns.first().cloned().unwrap_or_default();
+    match sensitivity(&read.model, by, order, &times) {
+        Ok(found) => Ok(to_csv(&found)),
+        Err(problem) => Err(super::follow::refuse(read, problem)),
+    }
 }

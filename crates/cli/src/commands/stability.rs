@@ -7,11 +7,15 @@
 use super::{error, with_progress};
 use crate::arguments::{Linearize, Stability as Arguments, Steady};
 use crate::{files, terminal, DONE, INPUT};
+use chetaev::study::sensitivity::along_motion;
 use chetaev::study::stability::{stability, Stability, StabilityError, Wanted};
 use chetaev::study::steady::steady;
 use std::path::Path;
 
 pub(crate) fn linearize(arguments: &Linearize) -> u8 {
+    if arguments.along {
+        return along(arguments);
+    }
     let wanted = Wanted {
         about: arguments.about.as_deref(),
         at: arguments.at.as_deref(),
@@ -30,6 +34,24 @@ pub(crate) fn linearize(arguments: &Linearize) -> u8 {
             found.linear_text()
         })
     })
+}
+
+/// The linear equations along the motion from the initial state.
+fn along(arguments: &Linearize) -> u8 {
+    let Some(read) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    match along_motion(&read.model) {
+        Ok(found) => {
+            terminal::out(&if arguments.json {
+                pretty(&found.json())
+            } else {
+                found.text()
+            });
+            DONE
+        }
+        Err(problem) => super::follow::refuse(&read, problem),
+    }
 }
 
 /// Writes the linear equations in the format that the end of the name says.

@@ -141,6 +141,11 @@ impl Stability {
             Crossing::Touching => "touching",
         };
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
-        json!({"parameter": name, "value": middle.to_f64().value(), "enclosure": [low, high], "kind": kind})
+        let mut found = json!({"parameter": name, "value": middle.to_f64().value(), "enclosure": [low, high], "kind": kind});
+        if let Some(own) = self.first_lyapunov(boundary) {
+            found["frequency"] = json!(own.frequency);
+            found["first_lyapunov"] = json!(own.coefficient);
+        }
+        found
     }
 }

@@ -256,6 +256,13 @@ impl Stability {
                         boundary.root.text(),
                         self.crossing(boundary)
                     );
+                    if let Some(own) = self.first_lyapunov(boundary) {
+                        let _ = writeln!(
+                            text,
+                            "  {}",
+                            crate::follow::hopf(own.frequency, own.coefficient)
+                        );
+                    }
                 }
             }
         }

@@ -1,0 +1,655 @@
+//! Continuation of solutions of `F(x, p) = 0` in the parameter p by pseudo-arclength (Keller 1977; Allgower and Georg 1990).
+//!
+//! The equations may have a family of solutions at every p by structure, and more equations than independent ones, as finite constraints and
+//! integrals make them. The family is cut by the plane through the start that is orthogonal to it, and what is left is solved by Gauss and
+//! Newton's method; so the curve that is followed is transversal to the family, and no eigenvalue zero of it hides a bifurcation.
+
+use crate::error::OrbitError;
+use crate::multipliers::Spectrum;
+use crate::subspace::{damped, kernel, least_squares, nullity};
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// `F` with its derivatives at (x, p).
+#[derive(Clone, Debug)]
+pub struct Linearized {
+    /// F.
+    pub residual: DVector<f64>,
+    /// ∂F/∂x.
+    pub by_unknowns: DMatrix<f64>,
+    /// ∂F/∂p.
+    pub by_parameter: DVector<f64>,
+}
+
+/// What is followed.
+pub trait Equations {
+    /// What a solution is called.
+    fn what(&self) -> &'static str;
+
+    /// `F` at (x, p).
+    ///
+    /// # Errors
+    /// [`OrbitError`] where it has no value.
+    fn evaluate(&mut self, x: &[f64], p: f64) -> Result<Linearized, OrbitError>;
+
+    /// The eigenvalues at a solution; `family` is the dimension of the family of solutions at the same p.
+    ///
+    /// # Errors
+    /// [`OrbitError`].
+    fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError>;
+
+    /// What changes its sign where the kind of motion may change; not a number where it vanishes identically.
+    fn tests(&self, values: &[Complex<f64>]) -> Vec<f64>;
+
+    /// What the zero of test number `test` at a solution is, `None` where it is nothing; `turns` says whether the curve turns back there.
+    ///
+    /// # Errors
+    /// [`OrbitError`].
+    fn kind(
+        &mut self,
+        test: usize,
+        at: (&[f64], f64),
+        spectrum: &Spectrum,
+        turns: bool,
+    ) -> Result<Option<Kind>, OrbitError>;
+
+    /// Told after each point that was accepted.
+    fn accepted(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
+        let _ = (x, p);
+        Ok(())
+    }
+}
+
+/// What happens at a point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// The branch turns back.
+    Fold,
+    /// An eigenvalue passes through zero, or a multiplier through 1, and the branch goes on: another one may cross.
+    BranchPoint,
+    /// A pair of eigenvalues passes the imaginary axis.
+    Hopf {
+        /// ω.
+        frequency: f64,
+        /// The first Lyapunov coefficient, where it is defined.
+        first_lyapunov: Option<f64>,
+    },
+    /// A multiplier passes −1.
+    PeriodDoubling,
+    /// A pair of multipliers passes the unit circle.
+    Torus {
+        /// Its angle.
+        angle: f64,
+    },
+}
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// p.
+    pub parameter: f64,
+    /// x.
+    pub unknowns: Vec<f64>,
+    /// The eigenvalues.
+    pub spectrum: Spectrum,
+}
+
+/// A point at which something happens.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// What.
+    pub kind: Kind,
+    /// Where.
+    pub point: Point,
+}
+
+/// Solutions over a range of the parameter.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Along the curve, from the end below the start to the one above.
+    pub points: Vec<Point>,
+    /// Where something happens, along the curve.
+    pub special: Vec<Special>,
+    /// The dimension of the family of solutions at the same p.
+    pub family: usize,
+    /// Why the curve ends, at its first and at its last point.
+    pub ends: [End; 2],
+}
+
+/// Why a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At an end of the range.
+    Range,
+    /// After as many points as were asked for.
+    Points,
+    /// No next point was found.
+    Lost,
+}
+
+/// Singular values below this part of the largest belong to a family.
+const FAMILY: f64 = 1e-7;
+/// The same for a solution that is exact to rounding.
+const ROUNDING: f64 = 1e-13;
+const STEPS: usize = 20;
+/// The same for the start, which may be far.
+const STEPS_OF_START: usize = 60;
+/// The damping of Levenberg and Marquardt in parts of the residual.
+const DAMPING: f64 = 0.1;
+/// Lengths of steps along the curve, in units of the range and of the size of the unknowns.
+const FIRST: f64 = 0.02;
+const LONGEST: f64 = 0.05;
+const SHORTEST: f64 = 1e-7;
+
+/// A solution at a value of the parameter near a guess, with the dimension of the family of solutions to which it belongs.
+///
+/// Solutions that are not isolated are found by the method of Levenberg and Marquardt with a damping that is proportional to the residual, which
+/// converges quadratically to one of them (Fan and Yuan 2005, Computing 74); Newton's method would run along the family.
+///
+/// # Errors
+/// [`OrbitError::NotConverged`].
+pub fn solution(
+    equations: &mut dyn Equations,
+    guess: &[f64],
+    p: f64,
+) -> Result<(Point, usize), OrbitError> {
+    let scale = scale(guess);
+    let mut x = DVector::from_iterator(guess.len(), guess.iter().zip(&scale).map(|(x, s)| x / s));
+    let mut last = f64::INFINITY;
+    for step in 0..=STEPS_OF_START {
+        let unscaled = unscaled(&x, &scale);
+        let own = equations.evaluate(&unscaled, p)?;
+        let matrix = scaled(&own.by_unknowns, &scale);
+        let residual = own.residual.amax();
+        let damping = DAMPING * own.residual.norm();
+        let change = damped(&matrix, &-own.residual, damping).ok_or(OrbitError::NoEigenvalues)?;
+        let size = change.norm();
+        if is_done(size, last, x.norm()) {
+            let family = nullity(&matrix, FAMILY);
+            equations.accepted(&unscaled, p)?;
+            let spectrum = equations.spectrum(&unscaled, p, family)?;
+            let point = Point {
+                parameter: p,
+                unknowns: unscaled,
+                spectrum,
+            };
+            return Ok((point, family));
+        }
+        if step == STEPS_OF_START || !size.is_finite() {
+            return Err(OrbitError::NotConverged {
+                what: equations.what(),
+                steps: step,
+                residual,
+            });
+        }
+        // Far from a solution no step is longer than the state is large.
+        let longest = 0.5 * (1.0 + x.norm());
+        x += &change * (longest / size.max(longest));
+        last = size;
+    }
+    Err(OrbitError::NotConverged {
+        what: equations.what(),
+        steps: STEPS_OF_START,
+        residual: f64::NAN,
+    })
+}
+
+/// Whether Newton's method has come to its end: steps are of the size of rounding, or small and no longer smaller.
+fn is_done(size: f64, last: f64, state: f64) -> bool {
+    size <= ROUNDING * (1.0 + state) || (size <= 1e-9 * (1.0 + state) && size > 0.25 * last)
+}
+
+fn scale(x: &[f64]) -> Vec<f64> {
+    x.iter().map(|x| 1.0 + x.abs()).collect()
+}
+
+fn unscaled(x: &DVector<f64>, scale: &[f64]) -> Vec<f64> {
+    x.iter().zip(scale).map(|(x, s)| x * s).collect()
+}
+
+fn scaled(matrix: &DMatrix<f64>, scale: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(matrix.nrows(), scale.len(), |r, c| {
+        matrix[(r, c)] * scale[c]
+    })
+}
+
+/// The curve of solutions through one near a guess, over a range of the parameter, in at most so many points.
+///
+/// # Errors
+/// [`OrbitError`] where there is no solution near the guess.
+pub fn follow(
+    equations: &mut dyn Equations,
+    (guess, p): (&[f64], f64),
+    range: (f64, f64),
+    points: usize,
+) -> Result<Branch, OrbitError> {
+    let p = p.clamp(range.0, range.1);
+    let (start, family) = solution(equations, guess, p)?;
+    let mut walk = Walk::new(equations, &start, family, range)?;
+    let mut ends = [End::Range; 2];
+    let (mut all, mut special) = (Vec::new(), Vec::new());
+    for (side, end) in ends.iter_mut().enumerate() {
+        let mut own = Vec::new();
+        let mut happened = Vec::new();
+        *end = walk.walk(&start, side == 1, points, (&mut own, &mut happened))?;
+        if side == 0 {
+            own.reverse();
+            happened.reverse();
+            own.push(start.clone());
+        }
+        all.extend(own);
+        special.extend(happened);
+    }
+    Ok(Branch {
+        points: all,
+        special,
+        family,
+        ends,
+    })
+}
+
+/// A curve on its way; vectors are unknowns in units of their scales, then the parameter in units of the range.
+struct Walk<'e> {
+    equations: &'e mut dyn Equations,
+    scale: Vec<f64>,
+    range: (f64, f64),
+    family: usize,
+    /// Where the family is cut, and its directions.
+    anchor: DVector<f64>,
+    across: DMatrix<f64>,
+}
+
+impl Walk<'_> {
+    fn new<'e>(
+        equations: &'e mut dyn Equations,
+        start: &Point,
+        family: usize,
+        range: (f64, f64),
+    ) -> Result<Walk<'e>, OrbitError> {
+        let scale = scale(&start.unknowns);
+        let own = equations.evaluate(&start.unknowns, start.parameter)?;
+        let across = kernel(&scaled(&own.by_unknowns, &scale), family);
+        let unknowns = start.unknowns.iter().zip(&scale).map(|(x, s)| x / s);
+        Ok(Walk {
+            equations,
+            range,
+            family,
+            anchor: DVector::from_iterator(scale.len(), unknowns),
+            across: across.ok_or(OrbitError::NoEigenvalues)?,
+            scale,
+        })
+    }
+
+    fn width(&self) -> f64 {
+        self.range.1 - self.range.0
+    }
+
+    fn pack(&self, point: &Point) -> DVector<f64> {
+        let unknowns = point.unknowns.iter().zip(&self.scale).map(|(x, s)| x / s);
+        let parameter = (point.parameter - self.range.0) / self.width();
+        DVector::from_iterator(self.scale.len() + 1, unknowns.chain([parameter]))
+    }
+
+    fn unpack(&self, y: &DVector<f64>) -> (Vec<f64>, f64) {
+        let m = self.scale.len();
+        let unknowns = unscaled(&y.rows(0, m).into(), &self.scale);
+        (unknowns, self.range.0 + y[m] * self.width())
+    }
+
+    /// F and the conditions of the cut, with their derivatives.
+    fn system(&mut self, y: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
+        let (x, p) = self.unpack(y);
+        let own = self.equations.evaluate(&x, p)?;
+        let (rows, m) = (own.residual.len(), x.len());
+        let offset = DVector::from(y.rows(0, m)) - &self.anchor;
+        let cut = self.across.tr_mul(&offset);
+        let mut residual = own.residual.resize_vertically(rows + self.family, 0.0);
+        residual.rows_mut(rows, self.family).copy_from(&cut);
+        let mut matrix = DMatrix::zeros(rows + self.family, m + 1);
+        let by_unknowns = scaled(&own.by_unknowns, &self.scale);
+        matrix.view_mut((0, 0), (rows, m)).copy_from(&by_unknowns);
+        let width = self.width();
+        matrix
+            .view_mut((0, m), (rows, 1))
+            .copy_from(&(own.by_parameter * width));
+        matrix
+            .view_mut((rows, 0), (self.family, m))
+            .copy_from(&self.across.transpose());
+        Ok((residual, matrix))
+    }
+
+    /// The solution in the plane through a guess with this normal, and how many steps it took.
+    fn correct(
+        &mut self,
+        guess: &DVector<f64>,
+        normal: &DVector<f64>,
+    ) -> Result<(DVector<f64>, usize), OrbitError> {
+        let mut y = guess.clone();
+        let mut last = f64::INFINITY;
+        let mut residual = f64::NAN;
+        for step in 0..STEPS {
+            let (f, matrix) = self.system(&y)?;
+            residual = f.amax();
+            let rows = f.len();
+            let mut right = (-f).resize_vertically(rows + 1, 0.0);
+            right[rows] = normal.dot(&(guess - &y));
+            let mut square = matrix.resize_vertically(rows + 1, 0.0);
+            square.row_mut(rows).copy_from(&normal.transpose());
+            let change = least_squares(&square, &right, f64::EPSILON);
+            let change = change.ok_or(OrbitError::NoEigenvalues)?;
+            let size = change.norm();
+            if !size.is_finite() || size > 0.5 * (1.0 + y.norm()) {
+                break;
+            }
+            y += change;
+            if is_done(size, last, y.norm()) {
+                return Ok((y, step));
+            }
+            last = size;
+        }
+        Err(OrbitError::NotConverged {
+            what: self.equations.what(),
+            steps: STEPS,
+            residual,
+        })
+    }
+
+    fn tangent(&mut self, y: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
+        let (_, matrix) = self.system(y)?;
+        let found = kernel(&matrix, 1).ok_or(OrbitError::NoEigenvalues)?;
+        Ok(found.column(0).into())
+    }
+
+    fn point(&mut self, y: &DVector<f64>) -> Result<Point, OrbitError> {
+        let (unknowns, parameter) = self.unpack(y);
+        let spectrum = self.equations.spectrum(&unknowns, parameter, self.family)?;
+        Ok(Point {
+            parameter,
+            unknowns,
+            spectrum,
+        })
+    }
+
+    /// Points from the start on, with a growing or falling parameter at first.
+    fn walk(
+        &mut self,
+        start: &Point,
+        is_upwards: bool,
+        count: usize,
+        (points, special): (&mut Vec<Point>, &mut Vec<Special>),
+    ) -> Result<End, OrbitError> {
+        let m = self.scale.len();
+        let mut at = Stand {
+            y: self.pack(start),
+            tangent: DVector::zeros(m + 1),
+            point: start.clone(),
+            s: 0.0,
+        };
+        self.equations.accepted(&start.unknowns, start.parameter)?;
+        at.tangent = self.tangent(&at.y)?;
+        if (at.tangent[m] > 0.0) != is_upwards {
+            at.tangent.neg_mut();
+        }
+        let mut before: Option<Stand> = None;
+        let mut happened = Vec::new();
+        let mut length = FIRST;
+        let end = loop {
+            if points.len() >= count {
+                break End::Points;
+            }
+            if is_at_end(&at.y) && (at.tangent[m] > 0.0) == (at.y[m] >= 1.0) {
+                break End::Range;
+            }
+            let Some((next, steps)) = self.step(&at, length) else {
+                length *= 0.5;
+                if length < SHORTEST {
+                    break End::Lost;
+                }
+                continue;
+            };
+            let is_out = next.y[m] < 0.0 || next.y[m] > 1.0;
+            let next = if is_out {
+                self.at_border(&at, &next)
+            } else {
+                Some(next)
+            };
+            let Some(next) = next else {
+                break End::Lost;
+            };
+            self.between(&at, &next, &mut happened);
+            if let Some(before) = &before {
+                self.touching(before, &at, &next, &mut happened);
+            }
+            points.push(next.point.clone());
+            self.equations
+                .accepted(&next.point.unknowns, next.point.parameter)?;
+            if is_at_end(&next.y) {
+                break End::Range;
+            }
+            before = Some(std::mem::replace(&mut at, next));
+            if steps <= 3 {
+                length = (1.5 * length).min(LONGEST);
+            }
+        };
+        happened.sort_by(|a, b| a.0.total_cmp(&b.0));
+        special.extend(happened.into_iter().map(|(_, own)| own));
+        Ok(end)
+    }
+
+    /// The next point at this length, where the direction does not change much.
+    fn step(&mut self, at: &Stand, length: f64) -> Option<(Stand, usize)> {
+        let guess = &at.y + &at.tangent * length;
+        let (y, steps) = self.correct(&guess, &at.tangent).ok()?;
+        let mut tangent = self.tangent(&y).ok()?;
+        if tangent.dot(&at.tangent) < 0.0 {
+            tangent.neg_mut();
+        }
+        if tangent.dot(&at.tangent) < 0.8 || (&y - &at.y).norm() > 3.0 * length {
+            return None;
+        }
+        let s = at.s + (&y - &at.y).norm();
+        let point = self.point(&y).ok()?;
+        Some((
+            Stand {
+                y,
+                tangent,
+                point,
+                s,
+            },
+            steps,
+        ))
+    }
+
+    /// The point at the end of the range between two points.
+    fn at_border(&mut self, at: &Stand, next: &Stand) -> Option<Stand> {
+        let m = self.scale.len();
+        let border = if next.y[m] > 1.0 { 1.0 } else { 0.0 };
+        let part = (border - at.y[m]) / (next.y[m] - at.y[m]);
+        let mut guess = &at.y + (&next.y - &at.y) * part;
+        guess[m] = border;
+        let mut normal = DVector::zeros(m + 1);
+        normal[m] = 1.0;
+        let (mut y, _) = self.correct(&guess, &normal).ok()?;
+        y[m] = border;
+        let point = self.point(&y).ok()?;
+        Some(Stand {
+            tangent: next.tangent.clone(),
+            s: at.s + (&y - &at.y).norm(),
+            y,
+            point,
+        })
+    }
+
+    /// What happens between two points.
+    fn between(&mut self, a: &Stand, b: &Stand, happened: &mut Vec<(f64, Special)>) {
+        let turns = self.value(Sign::Growth, a) * self.value(Sign::Growth, b) < 0.0;
+        let mut is_located = false;
+        for test in 0..self.equations.tests(&a.point.spectrum.values).len() {
+            if self.value(Sign::Test(test), a) * self.value(Sign::Test(test), b) < 0.0 {
+                let found = self.locate(Sign::Test(test), a, b);
+                is_located |= test == 0 && found.is_some();
+                happened.extend(found.and_then(|own| self.special(test, own, turns)));
+            }
+        }
+        // Where two branches meet, one may turn back without a change of sign of its eigenvalue, as at a pitchfork.
+        if turns && !is_located {
+            if let Some(own) = self.locate(Sign::Growth, a, b) {
+                let kind = Kind::Fold;
+                happened.push((
+                    own.s,
+                    Special {
+                        kind,
+                        point: own.point,
+                    },
+                ));
+            }
+        }
+    }
+
+    fn special(&mut self, test: usize, own: Stand, turns: bool) -> Option<(f64, Special)> {
+        let at = (&own.point.unknowns[..], own.point.parameter);
+        let kind = self.equations.kind(test, at, &own.point.spectrum, turns);
+        let point = own.point;
+        Some((
+            own.s,
+            Special {
+                kind: kind.ok()??,
+                point,
+            },
+        ))
+    }
+
+    /// Two zeros of a test that lie between points of the same sign: towards where it is smallest its sign is looked at.
+    fn touching(&mut self, a: &Stand, b: &Stand, c: &Stand, happened: &mut Vec<(f64, Special)>) {
+        for test in 0..self.equations.tests(&b.point.spectrum.values).len() {
+            let sign = Sign::Test(test);
+            let [low, middle, high] = [a, b, c].map(|own| self.value(sign, own));
+            let is_same = low * middle > 0.0 && middle * high > 0.0;
+            if !(is_same && middle.abs() < low.abs() && middle.abs() < high.abs()) {
+                continue;
+            }
+            if let Some(inside) = self.other_sign(sign, [a, b, c]) {
+                for own in [self.locate(sign, a, &inside), self.locate(sign, &inside, c)] {
+                    happened.extend(own.and_then(|own| self.special(test, own, false)));
+                }
+            }
+        }
+    }
+
+    /// A point at which a test has another sign than at three points between which its size has a minimum.
+    fn other_sign(&mut self, sign: Sign, three: [&Stand; 3]) -> Option<Stand> {
+        let mut three = three.map(Clone::clone);
+        let outside = self.value(sign, &three[1]);
+        for _ in 0..HALVINGS {
+            let [a, b, c] = &three;
+            let (left, right) = (self.halfway(a, b)?, self.halfway(b, c)?);
+            let (at_left, at_right) = (self.value(sign, &left), self.value(sign, &right));
+            let middle = self.value(sign, b).abs();
+            if at_left * outside < 0.0 {
+                return Some(left);
+            }
+            if at_right * outside < 0.0 {
+                return Some(right);
+            }
+            let [a, b, c] = three;
+            three = if at_left.abs() < middle.min(at_right.abs()) {
+                [a, left, b]
+            } else if at_right.abs() < middle {
+                [b, right, c]
+            } else {
+                [left, b, right]
+            };
+        }
+        None
+    }
+
+    fn value(&self, sign: Sign, at: &Stand) -> f64 {
+        match sign {
+            Sign::Growth => at.tangent[self.scale.len()],
+            Sign::Test(test) => {
+                let all = self.equations.tests(&at.point.spectrum.values);
+                all.get(test).copied().unwrap_or(f64::NAN)
+            }
+        }
+    }
+
+    fn halfway(&mut self, a: &Stand, b: &Stand) -> Option<Stand> {
+        self.on_chord(a, b, 0.5)
+    }
+
+    /// The point of the curve in the plane across a chord.
+    fn on_chord(&mut self, a: &Stand, b: &Stand, part: f64) -> Option<Stand> {
+        let chord = &b.y - &a.y;
+        let (y, _) = self
+            .correct(&(&a.y + &chord * part), &chord.normalize())
+            .ok()?;
+        let mut tangent = self.tangent(&y).ok()?;
+        if tangent.dot(&chord) < 0.0 {
+            tangent.neg_mut();
+        }
+        let s = a.s + part * (b.s - a.s);
+        let point = self.point(&y).ok()?;
+        Some(Stand {
+            y,
+            tangent,
+            point,
+            s,
+        })
+    }
+
+    /// The zero between two points of opposite sign, by false position with halved weights (Dowell and Jarratt 1971).
+    fn locate(&mut self, sign: Sign, a: &Stand, b: &Stand) -> Option<Stand> {
+        let mut ends = [0.0, 1.0];
+        let mut values = [self.value(sign, a), self.value(sign, b)];
+        let mut best = None;
+        let mut kept = 2;
+        for _ in 0..60 {
+            let part = (ends[0] * values[1] - ends[1] * values[0]) / (values[1] - values[0]);
+            let Some(own) = self.on_chord(a, b, part) else {
+                break;
+            };
+            let value = self.value(sign, &own);
+            best = Some(own);
+            // Not a number: an eigenvalue is zero to rounding.
+            if !value.is_finite() || value == 0.0 {
+                break;
+            }
+            let side = usize::from(value * values[1] > 0.0);
+            (ends[side], values[side]) = (part, value);
+            if kept == side {
+                values[1 - side] *= 0.5;
+            }
+            kept = side;
+            if (ends[1] - ends[0]).abs() < 1e-13 {
+                break;
+            }
+        }
+        best
+    }
+}
+
+/// Whether the parameter is at an end of the range.
+fn is_at_end(y: &DVector<f64>) -> bool {
+    y.iter().next_back().is_some_and(|p| *p <= 0.0 || *p >= 1.0)
+}
+
+/// How often a distance is halved in search of another sign.
+const HALVINGS: usize = 16;
+
+/// A point with its place on the curve.
+#[derive(Clone)]
+struct Stand {
+    y: DVector<f64>,
+    tangent: DVector<f64>,
+    point: Point,
+    /// How far it is from the start, along chords.
+    s: f64,
+}
+
+/// What is looked at for a change of sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    /// A test of the equations, by its number.
+    Test(usize),
+    /// Whether the parameter grows along the curve.
+    Growth,
+}

@@ -1,0 +1,162 @@
+//! Equilibria and steady motions as solutions of `f(z, p) = 0`.
+
+use crate::branch::{Equations, Kind, Linearized};
+use crate::error::OrbitError;
+use crate::flow::Flow;
+use crate::hopf::first_lyapunov;
+use crate::multipliers::{eigenvalues, Spectrum};
+use crate::subspace::decomposed;
+use chetaev_motion::functions::Functions;
+use chetaev_symbolic::Symbol;
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// The equations of steady motions.
+#[derive(Debug)]
+pub struct Equilibria<'f> {
+    flow: &'f Flow,
+    /// The place of the parameter that is varied.
+    place: Option<usize>,
+    functions: Functions,
+    values: Vec<f64>,
+}
+
+/// Pairs whose sum is a smaller part of the largest eigenvalue vanish by structure, as in systems with an energy.
+const STRUCTURAL: f64 = 1e-9;
+
+impl<'f> Equilibria<'f> {
+    /// The steady motions of a flow, a parameter being varied.
+    ///
+    /// # Errors
+    /// [`OrbitError::NotAutonomous`], [`OrbitError::NoValue`] for what is no parameter, [`OrbitError::Functions`].
+    pub fn new(flow: &'f Flow, parameter: Option<Symbol>) -> Result<Equilibria<'f>, OrbitError> {
+        if !flow.is_autonomous() {
+            return Err(OrbitError::NotAutonomous);
+        }
+        let g = &flow.graph;
+        let place = parameter.map(|s| {
+            flow.place(s).ok_or_else(|| OrbitError::NoValue {
+                name: g.symbol_text(s),
+            })
+        });
+        let place = place.transpose()?;
+        let by: Vec<Symbol> = parameter.into_iter().collect();
+        let all = [flow.rates.clone(), flow.finite.clone()].concat();
+        let groups = [
+            ("values", all.clone()),
+            ("slopes", g.jacobian(&all, &flow.variables).concat()),
+            ("by parameter", g.jacobian(&all, &by).concat()),
+        ];
+        Ok(Equilibria {
+            functions: flow.functions(&groups)?,
+            values: flow.parameters.iter().map(|own| own.1).collect(),
+            flow,
+            place,
+        })
+    }
+
+    fn set(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
+        let place = self
+            .place
+            .filter(|&at| self.values[at].to_bits() != p.to_bits());
+        if let Some(place) = place {
+            self.values[place] = p;
+            self.functions.set_parameters(&self.values)?;
+        }
+        Ok(self.functions.evaluate(0.0, &[x])?)
+    }
+
+    /// ∂f/∂z.
+    fn slopes(&self) -> DMatrix<f64> {
+        let n = self.flow.n();
+        DMatrix::from_row_slice(n, n, &self.functions.group(1)[..n * n])
+    }
+}
+
+impl Equations for Equilibria<'_> {
+    fn what(&self) -> &'static str {
+        "steady motion"
+    }
+
+    fn evaluate(&mut self, x: &[f64], p: f64) -> Result<Linearized, OrbitError> {
+        self.set(x, p)?;
+        let rows = self.functions.group(0).len();
+        Ok(Linearized {
+            residual: DVector::from_column_slice(self.functions.group(0)),
+            by_unknowns: DMatrix::from_row_slice(rows, self.flow.n(), self.functions.group(1)),
+            by_parameter: match self.place {
+                Some(_) => DVector::from_column_slice(self.functions.group(2)),
+                None => DVector::zeros(rows),
+            },
+        })
+    }
+
+    /// On the range of ∂f/∂z, the complement of which structure gives, the zeros of finite constraints and of the family are not seen.
+    fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError> {
+        self.set(x, p)?;
+        let slopes = self.slopes();
+        let finite = self.flow.finite.len();
+        let names = std::iter::repeat_n("a finite constraint".to_owned(), finite);
+        let of_family = std::iter::repeat_n("the family of steady motions".to_owned(), family);
+        let trivial: Vec<String> = names.chain(of_family).collect();
+        let count = self.flow.n().saturating_sub(trivial.len());
+        let range = match decomposed(&slopes) {
+            Some(found) => DMatrix::from(found.u.columns(0, count)),
+            None => return Err(OrbitError::NoEigenvalues),
+        };
+        let values = if trivial.is_empty() {
+            eigenvalues(&slopes)?
+        } else {
+            eigenvalues(&range.tr_mul(&(slopes * &range)))?
+        };
+        Ok(Spectrum { values, trivial })
+    }
+
+    fn tests(&self, values: &[Complex<f64>]) -> Vec<f64> {
+        let size = values
+            .iter()
+            .map(|l| l.norm())
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let zero: Complex<f64> = values.iter().map(|l| l / size).product();
+        let mut pairs = Complex::new(1.0, 0.0);
+        for (i, a) in values.iter().enumerate() {
+            for b in &values[i + 1..] {
+                let sum = (a + b) / size;
+                pairs *= if sum.norm() < STRUCTURAL {
+                    Complex::new(f64::NAN, 0.0)
+                } else {
+                    sum
+                };
+            }
+        }
+        vec![zero.re, pairs.re]
+    }
+
+    fn kind(
+        &mut self,
+        test: usize,
+        (x, p): (&[f64], f64),
+        spectrum: &Spectrum,
+        turns: bool,
+    ) -> Result<Option<Kind>, OrbitError> {
+        if test == 0 {
+            return Ok(Some(if turns { Kind::Fold } else { Kind::BranchPoint }));
+        }
+        let size = spectrum.values.iter().map(|l| l.norm()).fold(0.0, f64::max);
+        // Real eigenvalues that are opposite pass no axis.
+        let is_pair = |l: &&Complex<f64>| l.im > 1e-9 * size && l.re.abs() < 1e-6 * size;
+        let pair = spectrum.values.iter().filter(is_pair);
+        let Some(pair) = pair.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs())) else {
+            return Ok(None);
+        };
+        self.set(x, p)?;
+        let first_lyapunov = if spectrum.trivial.is_empty() {
+            first_lyapunov(self.flow, (x, &self.values), &self.slopes())
+        } else {
+            None
+        };
+        Ok(Some(Kind::Hopf {
+            frequency: pair.im,
+            first_lyapunov: first_lyapunov.map(|own| own.coefficient),
+        }))
+    }
+}

@@ -1,0 +1,314 @@
+//! The motion as a first-order system `z' = f(t, z, p)`.
+
+use crate::error::OrbitError;
+use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
+use chetaev_motion::functions::Functions;
+use chetaev_motion::Binding;
+use chetaev_stability::reduction::{ClosedSystem, Speeds};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use nalgebra::DMatrix;
+use std::sync::Arc;
+
+/// A first-order system with values of its parameters.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    /// Where all expressions live.
+    pub graph: Arc<Graph>,
+    /// Names of the variables.
+    pub names: Vec<String>,
+    /// z.
+    pub variables: Vec<Symbol>,
+    /// f, functions of the time, z and the parameters.
+    pub rates: Vec<Expr>,
+    /// The parameters that occur or may be varied, with their values.
+    pub parameters: Vec<(Symbol, f64)>,
+    /// z as functions of coordinates and velocities.
+    pub definitions: Vec<Expr>,
+    /// The velocities of all coordinates as functions of z; they may contain coordinates that are no variables.
+    pub velocities: Vec<Expr>,
+    /// Functions of z that vanish on admissible states.
+    pub finite: Vec<Expr>,
+    /// Functions of z that may be integrals, with their names.
+    pub conserved: Vec<(String, Expr)>,
+    /// Variables that are angles: a whole turn more changes nothing.
+    pub is_turning: Vec<bool>,
+}
+
+/// Which coordinates are variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Those on which the equations depend.
+    NotIgnorable,
+    /// All.
+    All,
+}
+
+impl Flow {
+    /// A system that is given by its rates.
+    pub fn of_rates(
+        graph: Arc<Graph>,
+        variables: Vec<Symbol>,
+        rates: Vec<Expr>,
+        parameters: Vec<(Symbol, f64)>,
+    ) -> Flow {
+        let own: Vec<Expr> = variables.iter().map(|&s| graph.symbol_expr(s)).collect();
+        Flow {
+            names: variables.iter().map(|&s| graph.symbol_text(s)).collect(),
+            is_turning: vec![false; variables.len()],
+            definitions: own,
+            velocities: Vec::new(),
+            finite: Vec::new(),
+            conserved: Vec::new(),
+            variables,
+            rates,
+            parameters,
+            graph,
+        }
+    }
+
+    /// The motion of a system in coordinates and quasi-velocities that serve at a state; `point` has values of coordinates, velocities and
+    /// parameters there.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where there are no explicit equations, or a parameter has no value.
+    pub fn of_system(
+        system: &System,
+        terms: &MotionTerms,
+        selection: &Selection,
+        (which, point): (Coordinates, &[(Symbol, f64)]),
+    ) -> Result<Flow, OrbitError> {
+        let g = &system.graph;
+        let closed = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, point))?;
+        let c = &closed.characteristics;
+        if !c.manifold.implicit.is_empty() {
+            return Err(OrbitError::Implicit);
+        }
+        let (coordinates, of_coordinates) = match which {
+            Coordinates::NotIgnorable => (closed.coordinates.clone(), closed.rates.clone()),
+            Coordinates::All => ((0..system.n()).collect(), c.velocities.clone()),
+        };
+        let of_speeds = closed.equations.rates(g).ok_or(OrbitError::Singular)?;
+        let plain = |es: &[Expr]| plain(system, es);
+        let coordinate = |&j: &usize| &system.coordinates[j];
+        let symbols = coordinates.iter().map(|j| coordinate(j).q_symbol);
+        let variables: Vec<Symbol> = symbols
+            .chain(c.parameters.iter().map(|p| p.symbol))
+            .collect();
+        let names = coordinates.iter().map(|j| coordinate(j).name.clone());
+        let positions = coordinates.iter().map(|j| coordinate(j).q);
+        let definitions: Vec<Expr> = positions
+            .chain(c.parameters.iter().map(|p| p.definition))
+            .collect();
+        let mut flow = Flow {
+            graph: g.clone(),
+            names: names
+                .chain(c.parameters.iter().map(|p| p.name.clone()))
+                .collect(),
+            rates: plain(&[of_coordinates, of_speeds].concat()),
+            parameters: Vec::new(),
+            definitions: plain(&definitions),
+            velocities: plain(&c.velocities),
+            finite: Vec::new(),
+            conserved: Vec::new(),
+            is_turning: Vec::new(),
+            variables,
+        };
+        let finite = selection.rows.iter();
+        let finite = finite.map(|&row| &system.constraints[terms.constraint_index[row]]);
+        let finite = finite.filter(|own| own.kind == ConstraintKind::Holonomic);
+        let finite: Vec<Expr> = finite.map(|own| own.stated).collect();
+        let is_closed = |e: &Expr| flow.is_closed(system, *e);
+        let finite: Vec<Expr> = plain(&finite).into_iter().filter(is_closed).collect();
+        let conserved: Vec<(String, Expr)> = candidates(system)
+            .into_iter()
+            .map(|(name, e)| (name, plain(&c.restrict(system, &[e]))[0]))
+            .filter(|(_, e)| flow.is_closed(system, *e))
+            .collect();
+        (flow.finite, flow.conserved) = (finite, conserved);
+        flow.parameters = values(system, &flow)?;
+        flow.is_turning = turning(system, &flow);
+        Ok(flow)
+    }
+
+    /// Whether an expression contains no coordinate or velocity that is not a variable, and not the time.
+    fn is_closed(&self, system: &System, e: Expr) -> bool {
+        let time = self.time();
+        self.graph.symbols_in(&[e]).into_iter().all(|s| {
+            let mut jet = system.coordinates.iter();
+            let is_of_jet = jet.any(|c| c.q_symbol == s || c.v_symbol == s);
+            s != time && (self.variables.contains(&s) || !is_of_jet)
+        })
+    }
+
+    /// The symbol of the time.
+    pub fn time(&self) -> Symbol {
+        self.graph.intern_symbol("t", 0)
+    }
+
+    /// The number of variables.
+    pub fn n(&self) -> usize {
+        self.variables.len()
+    }
+
+    /// Whether the rates do not contain the time.
+    pub fn is_autonomous(&self) -> bool {
+        !self.graph.any_contains_any(&self.rates, &[self.time()])
+    }
+
+    /// The place of a parameter.
+    pub fn place(&self, parameter: Symbol) -> Option<usize> {
+        self.parameters
+            .iter()
+            .position(|(own, _)| *own == parameter)
+    }
+
+    pub(crate) fn binding(&self) -> Binding {
+        Binding {
+            parameters: self.parameters.clone(),
+            controls: Vec::new(),
+            variables: [vec![self.time()], self.variables.clone()].concat(),
+        }
+    }
+
+    /// Groups of functions of (t, z) and the parameters, compiled.
+    pub(crate) fn functions(&self, groups: &[(&str, Vec<Expr>)]) -> Result<Functions, OrbitError> {
+        let binding = self.binding();
+        Ok(Functions::new(
+            &self.graph,
+            &binding,
+            &binding.variables,
+            groups,
+        )?)
+    }
+
+    /// ∂f/∂z at a state, for these values of the parameters; `None` where it has no value.
+    pub fn slopes(&self, z: &[f64], parameters: &[f64]) -> Option<DMatrix<f64>> {
+        let g = &self.graph;
+        let entries = g.jacobian(&self.rates, &self.variables).concat();
+        let value = |s: Symbol| {
+            let variable = self.variables.iter().position(|own| *own == s);
+            let variable = variable.map(|i| z[i]);
+            variable.or_else(|| Some(parameters[self.place(s)?]))
+        };
+        let found = g.evaluate_f64(&entries, &value).ok()?;
+        Some(DMatrix::from_row_slice(self.n(), self.n(), &found))
+    }
+
+    /// z at a state of coordinates and velocities.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoValue`] where one of them is needed and has none.
+    pub fn state(&self, point: &[(Symbol, f64)]) -> Result<Vec<f64>, OrbitError> {
+        let value = |s: Symbol| {
+            let mut known = point.iter().chain(&self.parameters);
+            known.find(|(own, _)| *own == s).map(|(_, value)| *value)
+        };
+        let missing = |s: &Symbol| value(*s).is_none() && *s != self.time();
+        let mut symbols = self.graph.symbols_in(&self.definitions).into_iter();
+        if let Some(s) = symbols.find(missing) {
+            let name = self.graph.symbol_text(s);
+            return Err(OrbitError::NoValue { name });
+        }
+        let at = |s: Symbol| value(s).or(Some(0.0));
+        let found = self.graph.evaluate_f64(&self.definitions, &at);
+        found.map_err(|_| OrbitError::NoValue {
+            name: self.names.join(", "),
+        })
+    }
+}
+
+/// Expressions with definitions of parameters and laws of controls put in; a control without law is zero.
+pub(crate) fn plain(system: &System, es: &[Expr]) -> Vec<Expr> {
+    let g = &system.graph;
+    let law = |s: Symbol| {
+        let name = g.symbol_name(s);
+        let control = system.controls.iter().find(|c| c.name == name)?;
+        let law = control.law.unwrap_or_else(|| g.zero());
+        let rate = |e: Expr| g.total_derivative(e, &|_| false);
+        Some((
+            g.symbol_expr(s),
+            (0..g.symbol_order(s)).fold(law, |e, _| rate(e)),
+        ))
+    };
+    let laws: Vec<(Expr, Expr)> = g.symbols_in(es).into_iter().filter_map(law).collect();
+    let es = g.substitute_all(es, &laws);
+    es.into_iter().map(|e| system.with_definitions(e)).collect()
+}
+
+/// Functions that often are integrals.
+fn candidates(system: &System) -> Vec<(String, Expr)> {
+    let g = &system.graph;
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let mut all = vec![("the energy".to_owned(), system.energy())];
+    for (c, momentum) in system.coordinates.iter().zip(momenta) {
+        all.push((format!("the momentum of {}", c.name), momentum));
+    }
+    let stated = system.integrals.iter();
+    all.extend(stated.map(|(name, e)| (format!("the integral {name}"), *e)));
+    all
+}
+
+/// All parameters that have a value and are not defined by others; an error for a symbol that occurs and has none.
+fn values(system: &System, flow: &Flow) -> Result<Vec<(Symbol, f64)>, OrbitError> {
+    let g = &system.graph;
+    let is_defined = |e: Expr| system.definitions.iter().any(|(own, _)| *own == e);
+    let stated = system.parameters.iter().filter(|p| !is_defined(p.expr));
+    let found: Vec<(Symbol, f64)> = stated
+        .filter_map(|p| {
+            let value = g.evaluate_f64(&[p.value?], &|_| None).ok()?[0];
+            Some((g.as_symbol(p.expr)?, value))
+        })
+        .collect();
+    let all = [flow.rates.clone(), flow.finite.clone()].concat();
+    let is_known = |s: &Symbol| {
+        *s == flow.time() || flow.variables.contains(s) || found.iter().any(|(own, _)| own == s)
+    };
+    match g.symbols_in(&all).into_iter().find(|s| !is_known(s)) {
+        Some(s) => Err(OrbitError::NoValue {
+            name: g.symbol_text(s),
+        }),
+        None => Ok(found),
+    }
+}
+
+/// Places at which a whole turn is tried.
+const TRIED: usize = 3;
+
+/// Coordinates that a whole turn more does not change the rates, at the places tried.
+fn turning(system: &System, flow: &Flow) -> Vec<bool> {
+    let g = &flow.graph;
+    let somewhere = |place: usize, i: usize| 0.3 + 0.17 * ((7 * place + 3 * i) % 5) as f64;
+    let rates = |place: usize, turned: Option<usize>| {
+        let value = |s: Symbol| {
+            let variable = flow.variables.iter().position(|own| *own == s);
+            let parameter = flow.place(s).map(|at| flow.parameters[at].1);
+            let turn = |i| {
+                if turned == Some(i) {
+                    std::f64::consts::TAU
+                } else {
+                    0.0
+                }
+            };
+            variable
+                .map(|i| somewhere(place, i) + turn(i))
+                .or(parameter)
+                .or(Some(0.4))
+        };
+        g.evaluate_f64(&flow.rates, &value).ok()
+    };
+    let is_same = |place: usize, i: usize| match (rates(place, None), rates(place, Some(i))) {
+        (Some(a), Some(b)) => a
+            .iter()
+            .zip(&b)
+            .all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + a.abs())),
+        _ => false,
+    };
+    let is_coordinate = |i: usize| {
+        let mut all = system.coordinates.iter();
+        all.any(|c| c.q_symbol == flow.variables[i])
+    };
+    let occurs = |i: usize| g.any_contains_any(&flow.rates, &[flow.variables[i]]);
+    (0..flow.n())
+        .map(|i| is_coordinate(i) && occurs(i) && (0..TRIED).all(|place| is_same(place, i)))
+        .collect()
+}

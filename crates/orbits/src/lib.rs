@@ -1,0 +1,27 @@
+//! Motions beside a motion: what a small change of the start or of a parameter makes of it, motions that repeat, and how they and the steady ones
+//! go on when a parameter changes.
+//!
+//! 1. [`flow`]: the motion as a first-order system, in the fewest variables that are closed, or with all coordinates.
+//! 2. [`variational`]: its first and second derivatives by initial values and parameters, by the Taylor series of the extended system.
+//!    [`sensitivity`] asks it of coordinates and velocities by the names of the model, [`along`] of the linear equations along a motion.
+//! 3. [`multipliers`]: the eigenvalues of the monodromy matrix, with those that are 1 by structure split off and named.
+//! 4. [`branch`]: continuation by pseudo-arclength (Keller 1977), across the families that the equations have by structure; [`equilibria`] and
+//!    [`periodic`] say of what.
+//! 5. [`hopf`]: the first Lyapunov coefficient where a pair of eigenvalues passes the imaginary axis.
+//!
+//! All here is numerical: nothing is proved, and values are located to rounding.
+
+pub mod along;
+pub mod branch;
+pub mod equilibria;
+pub mod error;
+pub mod flow;
+pub mod hopf;
+pub mod multipliers;
+pub mod periodic;
+pub mod sensitivity;
+mod subspace;
+pub mod variational;
+
+pub use error::OrbitError;
+pub use flow::Flow;

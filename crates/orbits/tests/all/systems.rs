@@ -1,0 +1,392 @@
+//! Mechanical systems.
+#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+use chetaev_integrate::Output;
+use chetaev_mechanics::{Prepared, System};
+use chetaev_model::load;
+use chetaev_orbits::along::along;
+use chetaev_orbits::branch::{follow, Kind};
+use chetaev_orbits::equilibria::Equilibria;
+use chetaev_orbits::flow::Coordinates;
+use chetaev_orbits::periodic::Shooting;
+use chetaev_orbits::sensitivity::{sensitivities, Beginning};
+use chetaev_orbits::variational::Order;
+use chetaev_orbits::Flow;
+use chetaev_symbolic::{Expr, Symbol};
+use std::collections::BTreeMap;
+
+/// The flow of a model at a state, and the reading of its expressions.
+fn flow(text: &str, state: &[(&str, f64)]) -> (Flow, impl Fn(&str) -> Expr) {
+    let text = format!("name = \"case\"\n{text}");
+    let loaded = load("case.toml", &text, &BTreeMap::new(), &[]);
+    let model = loaded
+        .model
+        .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+    let system = System::from_model(&model).unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    let symbol = |name: &str| {
+        let order = name.chars().filter(|c| *c == '\'').count();
+        system
+            .graph
+            .intern_symbol(name.trim_end_matches('\''), order as u32)
+    };
+    let mut point: Vec<(Symbol, f64)> = state.iter().map(|(name, x)| (symbol(name), *x)).collect();
+    let values = system.parameters.iter().filter_map(|p| {
+        let value = system.graph.evaluate_f64(&[p.value?], &|_| None).ok()?[0];
+        Some((system.graph.as_symbol(p.expr)?, value))
+    });
+    point.extend(values);
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let which = (Coordinates::NotIgnorable, &point[..]);
+    let flow = Flow::of_system(&system, terms, selection, which).unwrap();
+    (flow, move |text: &str| model.expression(text).unwrap())
+}
+
+fn is_close(found: f64, expected: f64, tolerance: f64) {
+    let error = (found - expected).abs() / (1.0 + expected.abs());
+    assert!(
+        error <= tolerance,
+        "{found} instead of {expected}: {error:e}"
+    );
+}
+
+/// Kapitza's pendulum stands upright above Ω = 99.260834704…, where the leading order says √(2 g l)/a = 99.0454 (−4 g/(l Ω²) = a₀(2 a/l), McLachlan
+/// 1947): a multiplier passes 1 there.
+#[test]
+fn kapitza() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { l = 0.2, a = 0.02, g = 9.81, Omega = 90 }
+[lagrangian]
+T = "1/2 l^2 theta'^2 + l a Omega sin(Omega t) sin(theta) theta'"
+V = "g l cos(theta)"
+"#,
+        &[("theta", 0.0), ("theta'", 0.0)],
+    );
+    assert_eq!(flow.is_turning, [true, false]);
+    let omega = flow.graph.intern_symbol("Omega", 0);
+    let period = read("2 pi/Omega");
+    let mut orbits = Shooting::new(&flow, Some(omega), Some(period)).unwrap();
+    for (at, trace) in [
+        (90.0, 2.043_533_501_022_299),
+        (100.0, 1.997_047_941_829_981_9),
+        (200.0, 1.850_751_692_323_900_4),
+    ] {
+        is_close(
+            orbits.monodromy(&[0.0, 0.0], at).unwrap().trace(),
+            trace,
+            1e-12,
+        );
+    }
+    let found = follow(&mut orbits, (&[0.0, 0.0], 90.0), (90.0, 110.0), 500).unwrap();
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
+    is_close(
+        found.special[0].point.parameter,
+        99.260_834_704_054_84,
+        1e-10,
+    );
+}
+
+/// Watt's governor hunts below ε = 2 α β^(3/2), and the orbits that are born are stable: l₁ < 0 (Sotomayor, Mello and Braga 2007; value by
+/// harmonic balance).
+#[test]
+fn watts_governor() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "s"]
+parameters = { alpha = 0.5, beta = 0.6, eps = 0.6 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 s'^2"
+[forces]
+x = "s'^2 sin(x) cos(x) - sin(x) - eps x'"
+s = "alpha (cos(x) - beta)"
+"#,
+        &[("x", 0.9), ("x'", 0.0), ("s'", 1.3)],
+    );
+    assert_eq!(flow.names, ["x", "x'", "s'"]);
+    let eps = flow.graph.intern_symbol("eps", 0);
+    let mut equations = Equilibria::new(&flow, Some(eps)).unwrap();
+    let found = follow(&mut equations, (&[0.9, 0.0, 1.3], 0.6), (0.1, 1.0), 300).unwrap();
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    let special = &found.special[0];
+    is_close(special.point.parameter, 0.464_758_001_544_890_03, 1e-12);
+    is_close(special.point.unknowns[2], 1.290_994_448_735_805_6, 1e-12);
+    match special.kind {
+        Kind::Hopf {
+            frequency,
+            first_lyapunov,
+        } => {
+            is_close(frequency, 1.032_795_558_988_644_5, 1e-12);
+            is_close(first_lyapunov.unwrap(), -0.081_153_947_931_242_15, 1e-9);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A sleigh runs straight on at any speed: with the mass centre at a distance a from the edge the family has dimension 1, and it is cut. The
+/// eigenvalue that is left is −m a u/(I + m a²), which passes zero at a = 0 (Neimark and Fufaev 1972).
+#[test]
+fn a_sleigh_across_its_family() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y", "phi"]
+parameters = { m = 2, I = 0.5, a = 0.3 }
+[lagrangian]
+T = "1/2 m ((x' - a sin(phi) phi')^2 + (y' + a cos(phi) phi')^2) + 1/2 I phi'^2"
+[constraints]
+edge = "-x' sin(phi) + y' cos(phi) = 0"
+[quasi_velocities]
+u = "x' cos(phi) + y' sin(phi)"
+w = "phi'"
+"#,
+        &[
+            ("x", 0.0),
+            ("y", 0.0),
+            ("phi", 0.0),
+            ("x'", 1.5),
+            ("y'", 0.0),
+            ("phi'", 0.0),
+        ],
+    );
+    assert_eq!(flow.names, ["u", "w"]);
+    let a = flow.graph.intern_symbol("a", 0);
+    let mut equations = Equilibria::new(&flow, Some(a)).unwrap();
+    let found = follow(&mut equations, (&[1.5, 0.0], 0.3), (-0.5, 0.5), 300).unwrap();
+    assert_eq!(found.family, 1);
+    for own in &found.points {
+        let at = own.parameter;
+        is_close(own.unknowns[0], 1.5, 1e-12);
+        assert_eq!(own.spectrum.trivial, ["the family of steady motions"]);
+        is_close(
+            own.spectrum.values[0].re,
+            -2.0 * at * 1.5 / (0.5 + 2.0 * at * at),
+            1e-10,
+        );
+    }
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    is_close(found.special[0].point.parameter, 0.0, 1e-10);
+}
+
+/// A bead on a turning hoop: at ω² = g/R the lowest position gives its stability to two others (a pitchfork); the branch through the side
+/// position turns at the same point.
+#[test]
+fn a_bead_on_a_hoop() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { R = 0.5, g = 9.81, W = 6 }
+[lagrangian]
+T = "1/2 R^2 theta'^2 + 1/2 R^2 W^2 sin(theta)^2"
+V = "-g R cos(theta)"
+[forces]
+theta = "-0.1 theta'"
+"#,
+        &[("theta", 1.0), ("theta'", 0.0)],
+    );
+    let rate = flow.graph.intern_symbol("W", 0);
+    let mut equations = Equilibria::new(&flow, Some(rate)).unwrap();
+    let lowest = follow(&mut equations, (&[0.0, 0.0], 3.0), (2.0, 8.0), 300).unwrap();
+    assert_eq!(lowest.special.len(), 1, "{:?}", lowest.special);
+    assert_eq!(lowest.special[0].kind, Kind::BranchPoint);
+    let critical = (9.81_f64 / 0.5).sqrt();
+    is_close(lowest.special[0].point.parameter, critical, 1e-12);
+    let side = follow(&mut equations, (&[1.0, 0.0], 6.0), (2.0, 8.0), 300).unwrap();
+    let fold = side.special.iter().find(|own| own.kind == Kind::Fold);
+    is_close(fold.unwrap().point.parameter, critical, 1e-6);
+    for own in &side.points {
+        let expected = 9.81 / (0.5 * own.parameter * own.parameter);
+        is_close(own.unknowns[0].cos(), expected, 1e-10);
+    }
+}
+
+/// A pendulum on a large orbit: its period is 4 K(sin(α/2)) √(l/g), and both multipliers are 1, of the energy and along the orbit.
+#[test]
+fn a_pendulum() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { l = 1, g = 1 }
+[lagrangian]
+T = "1/2 l^2 theta'^2"
+V = "-g l cos(theta)"
+"#,
+        &[("theta", 2.0), ("theta'", 0.0)],
+    );
+    let mut orbits = Shooting::new(&flow, None, None).unwrap();
+    let guess = chetaev_orbits::periodic::period_guess(&flow, &[2.0, 0.0], 30.0).unwrap();
+    let start = orbits.unknowns(&[2.0, 0.0], guess);
+    let (orbit, family) = chetaev_orbits::branch::solution(&mut orbits, &start, 0.0).unwrap();
+    assert_eq!(family, 1, "{guess} {orbit:?}");
+    assert_eq!(
+        orbit.spectrum.trivial,
+        ["the direction along the orbit", "the energy"]
+    );
+    assert!(orbit.spectrum.values.is_empty());
+    // The amplitude by the energy; K by the arithmetic-geometric mean (Gauss).
+    let energy = 0.5 * orbit.unknowns[1].powi(2) - orbit.unknowns[0].cos();
+    let k = ((1.0 + energy) / 2.0).sqrt();
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    is_close(orbit.unknowns[2], 2.0 * std::f64::consts::PI / a, 1e-12);
+}
+
+/// The model of a text, as a system.
+fn system(text: &str) -> (System, Prepared) {
+    let text = format!("name = \"case\"\n{text}");
+    let loaded = load("case.toml", &text, &BTreeMap::new(), &[]);
+    let model = loaded
+        .model
+        .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+    let system = System::from_model(&model).unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    (system, prepared)
+}
+
+/// `x = x₀ cos ωt + (v₀/ω) sin ωt` with ω = √k: derivatives by the stiffness and by a speed that is given as the double of a parameter.
+#[test]
+fn an_oscillator_by_stiffness_and_start() {
+    let (system, prepared) = system(
+        r#"
+coordinates = ["x"]
+parameters = { k = 4, s = 0.25 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 k x^2"
+[initial]
+x = 1
+"x'" = "2 s"
+"#,
+    );
+    let symbol = |name: &str, order| system.graph.intern_symbol(name, order);
+    let beginning = Beginning {
+        t: 0.0,
+        point: vec![(symbol("x", 0), 1.0), (symbol("x", 1), 0.5)],
+        given: system.start.clone(),
+    };
+    let by = ["k".to_owned(), "s".to_owned(), "x".to_owned()];
+    let found = sensitivities(
+        &system,
+        (&prepared.terms, &prepared.selection),
+        &beginning,
+        (&by, Order::Second),
+        (1.3, Output::Every(0.65)),
+    )
+    .unwrap();
+    assert_eq!(found.columns()[..4], ["x", "x'", "d x/d k", "d x'/d k"]);
+    let (t, row) = found.rows.last().unwrap();
+    let at = |name: &str| row[found.columns().iter().position(|own| own == name).unwrap()];
+    let (w, k, v) = (2.0_f64, 4.0_f64, 0.5);
+    let (sin, cos) = (w * t).sin_cos();
+    is_close(at("x"), cos + v / w * sin, 1e-14);
+    // dω/dk = 1/(2 ω).
+    let by_omega = -t * sin - v / k * sin + v / w * t * cos;
+    is_close(at("d x/d k"), by_omega / (2.0 * w), 1e-14);
+    is_close(at("d x/d s"), 2.0 / w * sin, 1e-14);
+    is_close(at("d x/d x"), cos, 1e-14);
+    is_close(at("d x'/d x"), -w * sin, 1e-14);
+    let mixed = -t * sin / (2.0 * w);
+    is_close(at("d2 x/d k d x"), mixed, 1e-14);
+    is_close(at("d2 x/d s d x"), 0.0, 1e-14);
+    let second =
+        -t * t * cos + 2.0 * v / w.powi(3) * sin - 2.0 * v / k * t * cos - v / w * t * t * sin;
+    is_close(
+        at("d2 x/d k d k"),
+        second / (4.0 * k) - by_omega / (4.0 * w.powi(3)),
+        1e-13,
+    );
+}
+
+/// A skate on a horizontal plane that turns uniformly runs on a circle of radius u/w: `x = (u/w) sin(w t)`, `y = (u/w)(1 − cos(w t))`. Its velocity
+/// y' follows from the constraint.
+#[test]
+fn a_skate_by_its_rates() {
+    let (system, prepared) = system(
+        r#"
+coordinates = ["x", "y", "phi"]
+parameters = { u = 1.5, w = 0.8 }
+[lagrangian]
+T = "1/2 (x'^2 + y'^2 + phi'^2)"
+[constraints]
+edge = "-x' sin(phi) + y' cos(phi) = 0"
+[initial]
+x = 0
+y = 0
+phi = 0
+"x'" = "u"
+"phi'" = "w"
+"#,
+    );
+    let symbol = |name: &str, order| system.graph.intern_symbol(name, order);
+    let names = ["x", "y", "phi"];
+    let positions = names.map(|name| (symbol(name, 0), 0.0));
+    let speeds = [
+        (symbol("x", 1), 1.5),
+        (symbol("y", 1), 0.0),
+        (symbol("phi", 1), 0.8),
+    ];
+    let beginning = Beginning {
+        t: 0.0,
+        point: [positions, speeds].concat(),
+        given: system.start.clone(),
+    };
+    let by = ["u".to_owned(), "w".to_owned(), "phi".to_owned()];
+    let found = sensitivities(
+        &system,
+        (&prepared.terms, &prepared.selection),
+        &beginning,
+        (&by, Order::Second),
+        (1.7, Output::End),
+    )
+    .unwrap();
+    let (t, row) = found.rows.last().unwrap();
+    let at = |name: &str| row[found.columns().iter().position(|own| own == name).unwrap()];
+    let (u, w) = (1.5, 0.8_f64);
+    let (sin, cos) = (w * t).sin_cos();
+    is_close(at("x"), u / w * sin, 1e-14);
+    is_close(at("d x/d u"), sin / w, 1e-13);
+    is_close(
+        at("d y/d w"),
+        u * (t * sin / w - (1.0 - cos) / (w * w)),
+        1e-13,
+    );
+    is_close(
+        at("d2 y/d u d w"),
+        t * sin / w - (1.0 - cos) / (w * w),
+        1e-13,
+    );
+    // x' stays u, so that along the edge the speed is u/cos φ₀: to the first order all turns about the origin.
+    is_close(at("d x/d phi"), -at("y"), 1e-13);
+    is_close(at("d y/d phi"), at("x"), 1e-13);
+    // To the second, u/cos φ₀ = u (1 + φ₀²/2): x(φ₀) = Re((1 + φ₀²/2) e^{iφ₀} z), whose second derivative at 0 vanishes.
+    is_close(at("d2 x/d phi d phi"), 0.0, 1e-12);
+    is_close(at("d2 y/d phi d phi"), 0.0, 1e-12);
+}
+
+/// Along a uniform motion A does not change, and the transition matrix is e^{A t}; the exponents of an oscillator vanish.
+#[test]
+fn linear_equations_along_a_motion() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x"]
+parameters = { k = 4 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 k x^2"
+"#,
+        &[("x", 1.0), ("x'", 0.0)],
+    );
+    let rows = along(&flow, &[1.0, 0.0], (0.0, 100.0), Output::Every(0.5)).unwrap();
+    for own in &rows {
+        assert_eq!(own.matrix.as_slice(), [0.0, -4.0, 1.0, 0.0]);
+        let (sin, cos) = (2.0 * own.t).sin_cos();
+        for (found, expected) in own.transition.iter().zip([cos, -2.0 * sin, 0.5 * sin, cos]) {
+            is_close(*found, expected, 1e-12);
+        }
+    }
+    let exponents = rows.last().unwrap().exponents(0.0).unwrap();
+    assert!(exponents.iter().all(|l| l.abs() < 0.01), "{exponents:?}");
+}

@@ -1,0 +1,283 @@
+//! A curve of steady motions or orbits in words and as JSON.
+
+use super::Followed;
+use chetaev_orbits::branch::{End, Kind, Point, Special};
+use serde_json::{json, Value};
+use std::fmt::Write as _;
+
+/// Rows of the table.
+const ROWS: usize = 12;
+/// How far from the axis, in parts of the largest eigenvalue, or from the circle is not on it.
+const ON_AXIS: f64 = 1e-7;
+
+impl Followed {
+    /// What was found in words.
+    pub fn text(&self) -> String {
+        let what = if self.is_orbit {
+            "periodic orbits"
+        } else {
+            "steady motions"
+        };
+        let mut text = format!("{}, {what} from `{}`", self.name, self.about);
+        if let Some(range) = &self.range {
+            let _ = write!(
+                text,
+                " over {} = {} to {}",
+                range.name,
+                range.low.to_f64().value(),
+                range.high.to_f64().value()
+            );
+        }
+        text.push_str(", in numbers: nothing here is proved\n");
+        if !self.ignorable.is_empty() {
+            let _ = writeln!(
+                text,
+                "Ignorable, nothing depends on them: {}",
+                self.ignorable.join(", ")
+            );
+        }
+        self.structure(&mut text);
+        for special in &self.branch.special {
+            let _ = writeln!(text, "{}", self.special_text(special));
+        }
+        text.push('\n');
+        let count = self.branch.points.len();
+        let step = count.div_ceil(ROWS).max(1);
+        let last = count.saturating_sub(1);
+        for (at, point) in self.branch.points.iter().enumerate() {
+            if at % step == 0 || at == last {
+                let _ = writeln!(text, "{}", self.row(at, point));
+            }
+        }
+        if let (Some(range), [a, b]) = (&self.range, self.branch.ends) {
+            for end in [a, b].into_iter().filter(|end| *end != End::Range) {
+                let _ = writeln!(text, "{}", ending(end, &range.name));
+            }
+        }
+        text
+    }
+
+    /// The eigenvalues that structure gives.
+    fn structure(&self, text: &mut String) {
+        let Some(first) = self.branch.points.first() else {
+            return;
+        };
+        let trivial = &first.spectrum.trivial;
+        let (word, value) = if self.is_orbit {
+            ("multiplier", 1)
+        } else {
+            ("eigenvalue", 0)
+        };
+        match trivial.len() {
+            0 => {}
+            1 => {
+                let _ = writeln!(
+                    text,
+                    "One {word} is {value} by structure, of {}",
+                    trivial[0]
+                );
+            }
+            n => {
+                let _ = writeln!(
+                    text,
+                    "{n} {word}s are {value} by structure: of {}",
+                    trivial.join(", ")
+                );
+            }
+        }
+        if self.branch.family > 0 && self.range.is_some() {
+            let _ = writeln!(
+                text,
+                "The family at one value has dimension {}; it is cut across",
+                self.branch.family
+            );
+        }
+        text.push('\n');
+    }
+
+    fn special_text(&self, special: &Special) -> String {
+        let name = self.range.as_ref().map_or("", |range| &range.name);
+        let (at, first) = (
+            special.point.parameter,
+            if self.is_orbit {
+                "a multiplier passes 1"
+            } else {
+                "an eigenvalue passes through zero"
+            },
+        );
+        let what = match special.kind {
+            Kind::Fold => format!("fold: the curve turns back, {first}"),
+            Kind::BranchPoint => format!("branch point: {first}, and the curve goes on"),
+            Kind::Hopf {
+                frequency,
+                first_lyapunov: Some(own),
+            } => hopf(frequency, own),
+            Kind::Hopf { frequency, .. } => format!(
+                "Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}"
+            ),
+            Kind::PeriodDoubling => "period doubling: a multiplier passes -1".into(),
+            Kind::Torus { angle } => {
+                format!("a pair of multipliers passes the unit circle at the angle {angle:.9}")
+            }
+        };
+        format!("{name} = {at:.12}: {what}")
+    }
+
+    fn row(&self, at: usize, point: &Point) -> String {
+        let head = self.range.as_ref().map_or(String::new(), |range| {
+            format!("{} = {:<10.6}", range.name, point.parameter)
+        });
+        let values = self.variables.iter().zip(&point.unknowns);
+        let values: Vec<String> = values
+            .map(|(name, x)| format!("{name} = {:.6}", plain(*x)))
+            .collect();
+        let period = self
+            .periods
+            .get(at)
+            .map_or(String::new(), |t| format!("  period {t:.9}"));
+        let own = point.spectrum.values.iter();
+        let own: Vec<String> = own.map(|l| number(l.re, l.im)).collect();
+        let word = if self.is_orbit {
+            "multipliers"
+        } else {
+            "eigenvalues"
+        };
+        let list = if own.is_empty() {
+            String::new()
+        } else {
+            format!("  {word} {}", own.join("  "))
+        };
+        format!(
+            "{head}  {}{period}{list}  {}",
+            values.join("  "),
+            self.stability(point)
+        )
+    }
+
+    /// Where the eigenvalues lie that structure does not give.
+    fn stability(&self, point: &Point) -> &'static str {
+        let values = &point.spectrum.values;
+        let size = values
+            .iter()
+            .map(|l| l.norm())
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let beyond = if self.is_orbit {
+            values
+                .iter()
+                .map(|l| l.norm() - 1.0)
+                .fold(f64::NEG_INFINITY, f64::max)
+        } else {
+            values
+                .iter()
+                .map(|l| l.re / size)
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        match beyond {
+            x if x < -ON_AXIS => "stable",
+            x if x > ON_AXIS => "unstable",
+            _ => "linearly on the border",
+        }
+    }
+
+    /// What was found as JSON.
+    pub fn json(&self) -> Value {
+        let point = |own: &Point| {
+            let pairs = own.spectrum.values.iter().map(|l| json!([l.re, l.im]));
+            json!({
+                "value": own.parameter,
+                "state": own.unknowns[..self.variables.len()],
+                "eigenvalues": pairs.collect::<Vec<_>>(),
+                "stability": self.stability(own),
+            })
+        };
+        let points = self.branch.points.iter().enumerate().map(|(at, own)| {
+            let mut value = point(own);
+            if let Some(period) = self.periods.get(at) {
+                value["period"] = json!(period);
+            }
+            value
+        });
+        let special = self.branch.special.iter().map(|own| {
+            let mut value = point(&own.point);
+            value["kind"] = json!(word(own.kind));
+            match own.kind {
+                Kind::Hopf {
+                    frequency,
+                    first_lyapunov,
+                } => {
+                    value["frequency"] = json!(frequency);
+                    value["first_lyapunov"] = json!(first_lyapunov);
+                }
+                Kind::Torus { angle } => value["angle"] = json!(angle),
+                _ => {}
+            }
+            value
+        });
+        let first = self.branch.points.first();
+        json!({
+            "system": self.name,
+            "motion": self.about,
+            "kind": if self.is_orbit { "orbits" } else { "steady" },
+            "method": if self.is_orbit { "shooting by Taylor series, pseudo-arclength" } else { "pseudo-arclength" },
+            "evidence": "numerical",
+            "parameter": self.range.as_ref().map(|range| range.name.clone()),
+            "variables": self.variables,
+            "ignorable": self.ignorable,
+            "family": self.branch.family,
+            "trivial": first.map(|own| own.spectrum.trivial.clone()),
+            "points": points.collect::<Vec<_>>(),
+            "special": special.collect::<Vec<_>>(),
+            "ends": self.branch.ends.map(|end| match end {
+                End::Range => "range",
+                End::Points => "points",
+                End::Lost => "lost",
+            }),
+        })
+    }
+}
+
+/// A Hopf point with what is born there.
+pub(crate) fn hopf(frequency: f64, coefficient: f64) -> String {
+    let kind = if coefficient < 0.0 {
+        "supercritical"
+    } else {
+        "subcritical"
+    };
+    format!("Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; the first Lyapunov coefficient is {coefficient:.9}: {kind}")
+}
+
+fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Fold => "fold",
+        Kind::BranchPoint => "branch point",
+        Kind::Hopf { .. } => "Hopf",
+        Kind::PeriodDoubling => "period doubling",
+        Kind::Torus { .. } => "torus",
+    }
+}
+
+fn ending(end: End, name: &str) -> String {
+    match end {
+        End::Range => String::new(),
+        End::Points => format!("The curve goes on: more points by --points, or a narrower range of {name}."),
+        End::Lost => "The curve ends where no next point was found: the equations have no value beyond, it branches, or an orbit shrinks to a steady motion.".into(),
+    }
+}
+
+/// No minus before what is zero as it is printed.
+fn plain(x: f64) -> f64 {
+    if x.abs() < 5e-7 {
+        0.0
+    } else {
+        x
+    }
+}
+
+fn number(re: f64, im: f64) -> String {
+    let (re, im) = (plain(re), plain(im));
+    if im == 0.0 {
+        format!("{re:.6}")
+    } else {
+        format!("{re:.6}{im:+.6}i")
+    }
+}
