@@ -193,6 +193,10 @@ impl Equations for Shooting<'_> {
         let start = DVector::from_column_slice(&x[..n]);
         let at_end = self.rates(period, &end.state)?;
         let at_start = self.rates(0.0, &x[..n])?;
+        let size = x[..n].iter().fold(1.0_f64, |a, x| a.max(x.abs()));
+        if !self.is_forced && at_start.amax() * period.abs() < AT_REST * size {
+            return Err(OrbitError::Steady);
+        }
         let finite = self.functions.group(FINITE).to_vec();
         let slopes = self.functions.group(SLOPES).to_vec();
         let by_parameter = self.functions.group(BY_PARAMETER).to_vec();

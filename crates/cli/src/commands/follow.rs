@@ -1,4 +1,8 @@
 //! `chetaev follow`.
+#![allow(
+    clippy::result_large_err,
+    reason = "an error is made once, and told at once"
+)]
 
 use super::{error, with_progress};
 use crate::arguments::Follow as Arguments;

@@ -127,6 +127,7 @@ fn brusselator() {
     is_close(first.unknowns[2], std::f64::consts::TAU / 1.3, 1e-2);
     // The equilibrium is no orbit.
     let at_rest = orbits.unknowns(&[1.3, 3.0 / 1.3], 4.8);
+    let mut orbits = Shooting::new(&at_three, Some(bs), None).unwrap();
     let found = solution(&mut orbits, &at_rest, 3.0);
     assert!(matches!(found, Err(OrbitError::Steady)), "{found:?}");
 }
