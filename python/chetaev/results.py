@@ -237,6 +237,18 @@ class Steady(Result):
         return list(self.to_dict()["motions"])
 
 
+class StabilityMap(Result):
+    """Stability over two parameters: ``growth`` on a grid, ``boundaries`` as curves, ``equations`` of these."""
+
+    def __init__(self, data: Json, text: str, picture: str) -> None:
+        super().__init__(data, text)
+        self._picture = picture
+
+    def picture(self) -> str:
+        """Regions with their boundaries as SVG."""
+        return self._picture
+
+
 class Followed(Result):
     """Steady motions or orbits over a range of a parameter: ``points`` with their eigenvalues or multipliers, ``special`` ones."""
 
@@ -308,6 +320,10 @@ class Linearization(Result):
 
 class Stability(Linearization):
     """Stability of a steady motion; over a range of a parameter ``regions`` and ``critical`` values with their enclosures."""
+
+    def picture(self) -> str | None:
+        """Eigenvalues over the range as SVG; ``None`` without a range."""
+        return self._native.picture()
 
     @property
     def critical(self) -> list[dict[str, Any]] | None:

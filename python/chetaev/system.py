@@ -21,6 +21,7 @@ from .results import (
     Picture,
     Result,
     Stability,
+    StabilityMap,
     Steady,
     Study,
     Trajectory,
@@ -673,6 +674,22 @@ class System:
         with _Progress(progress) as tell:
             found = self._native.stability(_wanted(about=about, over=over, at=at), tell)
         return Stability(self, found, found.ranges())
+
+    def stability_map(
+        self, over: str, *, about: str | None = None, at: str | None = None, progress: bool = False
+    ) -> StabilityMap:
+        """Where a steady motion is stable in the plane of two parameters, ``"v=0:10,c=0.02:0.14"``: ``chetaev stability --over`` with two.
+
+        Parameters
+        ----------
+        over : str
+            Two parameters with their ranges.
+        about, at : str, optional
+            As in :meth:`linearize`.
+        """
+        with _Progress(progress) as tell:
+            text, data, picture = self._native.stability_map(over, about, at, tell)
+        return StabilityMap(json.loads(data), text, picture)
 
     def follow(
         self,

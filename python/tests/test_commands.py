@@ -41,6 +41,7 @@ NOT_KEYWORDS_OF = {
     ("principles", "all"): "all verdicts are in the result",
     ("check", "lowered"): "the method lowered",
     ("linearize", "along"): "the method along",
+    ("stability", "plot"): "the method picture of its result",
     ("simulate", "sensitivity"): "the method sensitivity",
     ("simulate", "second"): "a keyword of the method sensitivity",
 }

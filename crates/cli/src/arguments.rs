@@ -220,6 +220,8 @@ pub(crate) struct Follow {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10
+  chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10 --plot bicycle.svg
+  chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10,c=0.02:0.14 --plot map.svg
   chetaev stability gallery/chaplygin-sleigh/model.toml --over u=-2:2
   chetaev stability model.toml --about upright --json")]
 pub(crate) struct Stability {
@@ -231,9 +233,12 @@ pub(crate) struct Stability {
     /// Values of controls without a law and of parameters of a family: --at u=1/2,theta_0=0.3
     #[arg(long, value_name = "NAME=VALUE,...")]
     pub(crate) at: Option<String>,
-    /// A parameter of the model, or of a family, with a range, exact numbers: --over v=0:10
+    /// A parameter of the model, or of a family, with a range, exact numbers: --over v=0:10; two make a map: --over v=0:10,c=0:1
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     pub(crate) over: Option<String>,
+    /// Write a picture: eigenvalues over one parameter, regions of stability over two
+    #[arg(long, value_name = "FILE.svg", requires = "over")]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON: regions, and critical values with their enclosures
     #[arg(long)]
     pub(crate) json: bool,

@@ -33,6 +33,11 @@ impl Linear {
         self.found.ranges_text()
     }
 
+    /// Eigenvalues over the range as SVG; none without a range.
+    fn picture(&self) -> Option<String> {
+        self.found.picture()
+    }
+
     /// The matrices in LaTeX.
     fn latex(&self) -> String {
         self.found.latex()

@@ -531,6 +531,35 @@ impl Model {
         }
     }
 
+    /// Stability over two parameters, in words, as JSON and as SVG: `stability --over` with two.
+    #[pyo3(signature = (over, about=None, at=None, tell=None))]
+    fn stability_map(
+        &self,
+        py: Python<'_>,
+        over: &str,
+        about: Option<&str>,
+        at: Option<&str>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String, String)> {
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("map of stability", None);
+                let wanted = stability::Wanted {
+                    about,
+                    at,
+                    over: Some(over),
+                    ..stability::Wanted::default()
+                };
+                stability::map::map(&self.model, &wanted).map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok((found.text(), found.json().to_string(), found.picture())),
+            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+        }
+    }
+
     /// Linear equations along the motion from the initial state, in words and as JSON: `linearize --along`.
     #[pyo3(signature = (tell=None))]
     fn along(&self, py: Python<'_>, tell: Option<&Bound<'_, PyAny>>) -> PyResult<(String, String)> {

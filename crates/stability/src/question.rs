@@ -182,11 +182,16 @@ pub fn parameter_of_motion(system: &System, motion: &SteadyMotion) -> Option<Sym
 
 /// The values of all parameters but one. Parameters whose definitions contain that one are put in by their definitions.
 pub fn values_but(system: &System, over: Option<Symbol>) -> Vec<(Expr, Expr)> {
+    values_but_these(system, over.as_slice())
+}
+
+/// The values of all parameters but some. Parameters whose definitions contain one of these are put in by their definitions.
+pub fn values_but_these(system: &System, over: &[Symbol]) -> Vec<(Expr, Expr)> {
     let g = &system.graph;
     let all = system.parameter_values();
-    let Some(over) = over else {
+    if over.is_empty() {
         return all;
-    };
+    }
     let mut values: Vec<(Expr, Expr)> = Vec::new();
     for (symbol, value) in all {
         let definition = system
@@ -195,9 +200,9 @@ pub fn values_but(system: &System, over: Option<Symbol>) -> Vec<(Expr, Expr)> {
             .find(|(own, _)| *own == symbol)
             .map(|(_, e)| *e);
         let expanded = definition.map(|e| expanded(system, e));
-        match expanded.filter(|&e| g.contains_any(e, &[over])) {
+        match expanded.filter(|&e| g.contains_any(e, over)) {
             Some(e) => values.push((symbol, with_values(system, e, over))),
-            None if g.as_symbol(symbol) == Some(over) => {}
+            None if g.as_symbol(symbol).is_some_and(|s| over.contains(&s)) => {}
             None => values.push((symbol, value)),
         }
     }
@@ -227,13 +232,13 @@ pub fn values_at(system: &System, over: Symbol, at: &RBig) -> Vec<(Expr, Expr)> 
     others.chain([own]).collect()
 }
 
-/// An expression of parameters with the values of all but one.
-fn with_values(system: &System, e: Expr, over: Symbol) -> Expr {
+/// An expression of parameters with the values of all but some.
+fn with_values(system: &System, e: Expr, over: &[Symbol]) -> Expr {
     let g = &system.graph;
     let values: Vec<(Expr, Expr)> = system.parameter_values();
     let values: Vec<(Expr, Expr)> = values
         .into_iter()
-        .filter(|(s, _)| g.as_symbol(*s) != Some(over))
+        .filter(|(s, _)| !g.as_symbol(*s).is_some_and(|s| over.contains(&s)))
         .collect();
     g.substitute(e, &values)
 }

@@ -6,6 +6,7 @@ mod default_drawing;
 mod drawing;
 mod equations;
 mod motion;
+mod steady;
 
 pub(crate) use claims::{evidence, word};
 pub use drawing::scene;
@@ -31,6 +32,9 @@ pub fn page(study: &Study, command: Option<String>, files: &[String]) -> String 
 pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Report {
     let model = &study.model;
     let set = Typesetter::new(&study.system);
+    let (steady, eigenvalues) = steady::section(study);
+    let of_motion = study.motion.as_ref().map(motion::figures);
+    let figures = eigenvalues.into_iter();
     Report {
         title: title(&model.name),
         subtitle: Some(subtitle(study)),
@@ -49,7 +53,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
         parameters: parameters(study, &set),
         assumptions: assumptions(study, &set),
         initial: initial(study, &set),
-        tables: Vec::new(),
+        tables: steady.into_iter().collect(),
         maps: Vec::new(),
         sections: equations::sections(study, &set),
         claims: study
@@ -61,11 +65,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             .motion
             .as_ref()
             .map(|m| motion::trajectory(study, m, &set, files)),
-        figures: study
-            .motion
-            .as_ref()
-            .map(motion::figures)
-            .unwrap_or_default(),
+        figures: figures.chain(of_motion.unwrap_or_default()).collect(),
         comparison: study
             .motion
             .as_ref()

@@ -9,6 +9,8 @@
 mod data;
 pub(crate) mod error;
 mod hopf;
+pub mod map;
+mod plot;
 mod text;
 
 pub use error::StabilityError;
@@ -454,7 +456,7 @@ impl Stability {
     }
 
     /// The value that the model states for the parameter that was left in.
-    fn stated(&self) -> Option<f64> {
+    pub(crate) fn stated(&self) -> Option<f64> {
         let g = self.graph();
         let over = self.question.over?;
         let own = self

@@ -312,3 +312,73 @@ fn sensitivities_are_near_differences() {
     }
     let _ = std::fs::remove_dir_all(folder);
 }
+
+/// The map of the bicycle over speed and trail: at the trail of the benchmark its boundaries are the critical speeds (Meijaard and others 2007).
+#[test]
+fn a_map_has_the_critical_speeds_as_boundaries() {
+    let path = model("whipple-bicycle");
+    let picture = std::env::temp_dir().join(format!("chetaev-map-{}.svg", std::process::id()));
+    let options = [
+        "--over",
+        "v=0:10,c=0.02:0.14",
+        "--json",
+        "--plot",
+        text(&picture),
+    ];
+    let found = json(&[&["stability", text(&path)], &options[..]].concat());
+    for (kind, speed) in [
+        ("pair", 4.292_382_536_341_104),
+        ("zero", 6.024_262_015_388_359),
+    ] {
+        let curves = found["boundaries"].as_array().unwrap().iter();
+        let points = curves.filter(|own| own["kind"] == kind);
+        let mut points = points.flat_map(|own| own["points"].as_array().unwrap());
+        // The trail 0.08 is a line of the grid.
+        let at = |own: &Value, i: usize| own[i].as_f64().unwrap();
+        let own = points.find(|own| (at(own, 1) - 0.08).abs() < 1e-12);
+        let own = at(own.expect("a place on the line"), 0);
+        assert!((own - speed).abs() < 1e-9, "{kind}: {own}");
+    }
+    assert_eq!(found["growth"].as_array().unwrap().len(), 201);
+    let drawn = std::fs::read_to_string(&picture).unwrap();
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
+    let _ = std::fs::remove_file(picture);
+}
+
+/// The figures of the chapter are what the program draws today.
+#[test]
+fn figures_of_the_chapter_are_those_of_the_program() {
+    let path = model("whipple-bicycle");
+    for (name, range) in [("bicycle", "v=0:10"), ("map", "v=0:10,c=0.02:0.14")] {
+        let shown = root().join(format!("docs/book/stability/{name}.svg"));
+        let folder = std::env::temp_dir();
+        let drawn = folder.join(format!("chetaev-{name}-{}.svg", std::process::id()));
+        let options = ["--over", range, "--plot", text(&drawn)];
+        let finished = run(&[&["stability", text(&path)], &options[..]].concat());
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        let (now, shown) = (
+            std::fs::read_to_string(&drawn),
+            std::fs::read_to_string(shown),
+        );
+        assert_eq!(now.unwrap(), shown.unwrap(), "{name}");
+        let _ = std::fs::remove_file(drawn);
+    }
+}
+
+/// The report of the sleigh has a section on its steady motions, and a figure of their eigenvalues over the speed.
+#[test]
+fn a_report_has_a_section_on_steady_motions() {
+    let path = model("chaplygin-sleigh");
+    let folder = std::env::temp_dir().join(format!("chetaev-section-{}", std::process::id()));
+    let out = text(&folder);
+    let finished = run(&["study", text(&path), "--claims", "stability", "--out", out]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    let (_, section) = page
+        .split_once("Steady motions and stability</h2>")
+        .unwrap();
+    let section = &section[..section.find("</section>").unwrap()];
+    assert!(section.contains("Eigenvalues"), "{section}");
+    assert!(page.contains("Eigenvalues of the motion"));
+    let _ = std::fs::remove_dir_all(folder);
+}

@@ -8,6 +8,7 @@ use super::{error, with_progress};
 use crate::arguments::{Linearize, Stability as Arguments, Steady};
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::study::sensitivity::along_motion;
+use chetaev::study::stability::map::map;
 use chetaev::study::stability::{stability, Stability, StabilityError, Wanted};
 use chetaev::study::steady::steady;
 use std::path::Path;
@@ -76,13 +77,46 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         over: arguments.over.as_deref(),
         ..Wanted::default()
     };
+    if wanted.over.is_some_and(|text| text.contains(',')) {
+        return over_two(arguments, &wanted);
+    }
     answer(&arguments.model, &wanted, |found| {
+        if let Some((path, picture)) = arguments.plot.as_ref().zip(found.picture()) {
+            files::write(path, picture.as_bytes()).map_err(std::io::Error::other)?;
+        }
         Ok(if arguments.json {
             json(found)
         } else {
             found.ranges_text()
         })
     })
+}
+
+/// The map over two parameters.
+fn over_two(arguments: &Arguments, wanted: &Wanted<'_>) -> u8 {
+    let Some(read) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let found = with_progress(|line| {
+        line.show("map of stability", None);
+        map(&read.model, wanted)
+    });
+    let found = match found {
+        Ok(found) => found,
+        Err(problem) => return refuse(&read, problem),
+    };
+    if let Some(path) = &arguments.plot {
+        if let Err(problem) = files::write(path, found.picture().as_bytes()) {
+            error(problem);
+            return INPUT;
+        }
+    }
+    terminal::out(&if arguments.json {
+        pretty(&found.json())
+    } else {
+        found.text()
+    });
+    DONE
 }
 
 fn json(found: &Stability) -> String {

@@ -2,4 +2,5 @@
 //! `cargo test -p chetaev-orbits --test all MODULE::`.
 
 mod equations;
+mod random;
 mod systems;

@@ -1,5 +1,9 @@
 //! Mechanical systems.
-#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::excessive_precision,
+    reason = "test code fails where it stands, and has the digits of its sources"
+)]
 
 use chetaev_integrate::Output;
 use chetaev_mechanics::{Prepared, System};

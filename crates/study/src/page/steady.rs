@@ -1,0 +1,178 @@
+//! The section on steady motions: their eigenvalues, what is stated on their stability, and how the eigenvalues move with a parameter.
+
+use crate::stability::{stability, Stability, Wanted};
+use crate::study::Study;
+use chetaev_mechanics::System;
+use chetaev_report::data::{Cell, Figure, Series, SeriesGroup, Table, TableRow};
+use chetaev_stability::hurwitz::Region;
+use chetaev_stability::isolation::Root;
+use chetaev_stability::question::parameter_of_motion;
+use chetaev_symbolic::Rational;
+
+/// The table and its figures.
+pub(super) fn section(study: &Study) -> (Option<Table>, Vec<Figure>) {
+    let names = study.system.steady.iter().map(|own| own.name.clone());
+    let found: Vec<(String, Stability)> = names
+        .filter_map(|name| Some((name.clone(), about(study, &name)?)))
+        .collect();
+    if found.is_empty() {
+        return (None, Vec::new());
+    }
+    let rows = found.iter().map(|(name, own)| row(study, name, own));
+    let table = Table {
+        id: "steady".into(),
+        title: "Steady motions and stability".into(),
+        explanation: vec![
+            "Along a steady motion everything that the equations depend on is constant. The eigenvalues are those of the exact linear equations, at the values of the model; zeros of the family of steady motions are among them.".into(),
+        ],
+        headings: ["Motion", "Eigenvalues", "Stated", "Stability changes"]
+            .map(String::from)
+            .to_vec(),
+        rows: rows.collect(),
+    };
+    let figures = found.iter().filter_map(|(name, own)| figure(name, own));
+    (Some(table), figures.collect())
+}
+
+/// The linear equations about a motion, over a range around the stated value where a parameter names the members of its family.
+fn about(study: &Study, name: &str) -> Option<Stability> {
+    let motion = study.system.steady.iter().find(|own| own.name == name)?;
+    let range = parameter_of_motion(&study.system, motion)
+        .and_then(|symbol| range(&study.system, &study.system.graph.symbol_text(symbol)));
+    let wanted = |over| Wanted {
+        about: Some(name),
+        over,
+        ..Wanted::default()
+    };
+    let over = range.as_deref();
+    let found = stability(&study.model, &wanted(over)).ok();
+    found.or_else(|| stability(&study.model, &wanted(None)).ok())
+}
+
+/// From minus twice the stated value of a parameter to twice it, in short decimals.
+fn range(system: &System, name: &str) -> Option<String> {
+    let parameter = system.parameters.iter().find(|p| p.name == name)?;
+    let value = system.graph.evaluate_f64(&[parameter.value?], &|_| None);
+    let size = match value.ok()?[0].abs() {
+        x if x > 0.0 && x.is_finite() => x,
+        _ => 1.0,
+    };
+    let end: f64 = format!("{:.3e}", 2.0 * size).parse().ok()?;
+    Some(format!("{name}=-{end}:{end}"))
+}
+
+fn row(study: &Study, name: &str, own: &Stability) -> TableRow {
+    let list = own.eigenvalues(own.stated()).unwrap_or_default();
+    let eigenvalues: Vec<String> = list.iter().map(|&l| number(l)).collect();
+    let stated = |id: &str, word: &str| {
+        let full = format!("{id}#{name}");
+        let decided = study.verdicts.iter().find(|d| d.full_id() == full)?;
+        Some(format!("{word}: {}", decided.finding.verdict.word()))
+    };
+    let all = [
+        stated("stability.asymptotic", "asymptotically stable"),
+        stated("stability.nonlinear", "stable"),
+        stated("stability.linear", "linear motions bounded"),
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    let cells = [
+        name.to_owned(),
+        eigenvalues.join(", "),
+        all.join("; "),
+        changes(own).join("; "),
+    ];
+    TableRow {
+        cells: cells.iter().map(|text| Cell::from(text.as_str())).collect(),
+        is_marked: false,
+    }
+}
+
+/// Where the stability changes within the range.
+fn changes(own: &Stability) -> Vec<String> {
+    let (Some(range), Some(ranges)) = (&own.range, &own.ranges) else {
+        return Vec::new();
+    };
+    let kind = |region: Option<&Region>| region.map(|own| own.is_left);
+    let text = |root: &Root| {
+        let before = kind(ranges.regions.iter().rfind(|own| own.high <= root.low));
+        let after = kind(ranges.regions.iter().find(|own| own.low >= root.high));
+        let middle = (&root.low + &root.high) / Rational::from(2);
+        let name = &range.name;
+        (before != after).then(|| format!("{name} = {:.12}", middle.to_f64().value()))
+    };
+    let boundaries = ranges.boundaries.iter();
+    boundaries.filter_map(|own| text(&own.root)).collect()
+}
+
+fn number((re, im): (f64, f64)) -> String {
+    let plain = |x: f64| if x.abs() < 5e-7 { 0.0 } else { x };
+    match (plain(re), plain(im)) {
+        (re, 0.0) => format!("{re:.4}"),
+        (re, im) => format!(
+            "{re:.4} {} {:.4} i",
+            if im < 0.0 { "−" } else { "+" },
+            im.abs()
+        ),
+    }
+}
+
+/// Values of the parameter in the figure.
+const SAMPLES: usize = 240;
+
+/// The real and imaginary parts of the eigenvalues over the range, each curve one eigenvalue.
+fn figure(name: &str, own: &Stability) -> Option<Figure> {
+    let range = own.range.as_ref()?;
+    let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
+    let mut abscissae = Vec::new();
+    let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
+    for i in 0..=SAMPLES {
+        let at = low + (high - low) * i as f64 / SAMPLES as f64;
+        let Some(list) = own.eigenvalues(Some(at)) else {
+            continue;
+        };
+        if curves.is_empty() {
+            curves = list.iter().map(|&l| vec![l]).collect();
+        } else {
+            continued(&mut curves, list);
+        }
+        abscissae.push(at);
+    }
+    let series = |(place, curve): (usize, &Vec<(f64, f64)>)| {
+        let part = |what: &str, values: Vec<f64>| Series {
+            name: format!("{what} λ {}", place + 1),
+            label: Some(format!("{what} λ_{{{}}}", place + 1)),
+            group: SeriesGroup::Other,
+            values,
+            ..Series::default()
+        };
+        [
+            part("Re", curve.iter().map(|l| l.0).collect()),
+            part("Im", curve.iter().map(|l| l.1).collect()),
+        ]
+    };
+    Some(Figure {
+        title: format!("Eigenvalues of the motion {name}"),
+        explanation: vec![format!(
+            "Real and imaginary parts over {}: the motion is unstable where a real part is positive.",
+            range.name
+        )],
+        horizontal: range.name.clone(),
+        abscissae,
+        series: curves.iter().enumerate().flat_map(series).collect(),
+        claim: Some(format!("stability.spectral#{name}")),
+        ..Figure::default()
+    })
+}
+
+/// Each curve goes on to the eigenvalue nearest to its last one that no other has taken.
+fn continued(curves: &mut [Vec<(f64, f64)>], mut list: Vec<(f64, f64)>) {
+    for curve in curves {
+        let Some(&last) = curve.last() else {
+            continue;
+        };
+        let distance = |l: &(f64, f64)| (l.0 - last.0).hypot(l.1 - last.1);
+        let nearest =
+            (0..list.len()).min_by(|&a, &b| distance(&list[a]).total_cmp(&distance(&list[b])));
+        curve.push(nearest.map_or(last, |place| list.swap_remove(place)));
+    }
+}

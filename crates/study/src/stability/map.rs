@@ -1,0 +1,421 @@
+//! Where a steady motion is stable in the plane of two parameters: `chetaev stability --over a=0:1,b=0:2`.
+//!
+//! The linear equations are exact in both parameters. On a grid the eigenvalues say on which side of the axis they lie; between two places of
+//! different kinds the boundary is located by bisection, and the places are joined to curves (marching squares). The functions whose zeros these
+//! curves are, factors of the constant coefficient, of Hurwitz's last determinant but one and of the leading coefficient (Liénard and Chipart
+//! 1914), are given exactly where they are short.
+
+use super::{at, check_parameter, motions, range, with_values, Range, StabilityError, Wanted};
+use chetaev_mechanics::{Prepared, System};
+use chetaev_model::Model;
+use chetaev_stability::eigenvalues::{eigenvalues, Complex};
+use chetaev_stability::expansion::Expansion;
+use chetaev_stability::hurwitz::determinants;
+use chetaev_stability::question::{values_but_these, Question};
+use chetaev_stability::reduction::Speeds;
+use chetaev_stability::steady_set::steady_set;
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use serde_json::{json, Value};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Places on each side of the grid.
+pub const SIDE: usize = 200;
+/// Bisections of an edge of the grid: to the rounding of the parameters.
+const HALVINGS: usize = 48;
+/// Where eigenvalues come in opposite pairs none is left of the axis; this part of the largest counts as on it.
+const ON_AXIS: f64 = 1e-7;
+/// Longer equations are not printed.
+const LONGEST: usize = 400;
+
+/// A boundary of stability.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// `zero` where a real eigenvalue passes through zero, `pair` where a pair passes the axis.
+    pub kind: &'static str,
+    /// Values of both parameters along it.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Stability over two parameters.
+#[derive(Clone, Debug)]
+pub struct StabilityMap {
+    /// The name of the model.
+    pub name: String,
+    /// The name of the motion.
+    pub motion: String,
+    /// The parameters with their ranges.
+    pub ranges: [Range; 2],
+    /// The largest real part of an eigenvalue that is no zero of the family, at [`SIDE`] + 1 values of the first parameter for each of the second.
+    pub growth: Vec<f64>,
+    /// Whether it counts as stable there: for pairs on the axis, that linear motions grow no faster than a power of the time.
+    pub is_stable: Vec<bool>,
+    /// Boundaries.
+    pub curves: Vec<Curve>,
+    /// Functions on whose zeros they lie, with what passes there.
+    pub equations: Vec<(&'static str, String)>,
+}
+
+/// The map of a model over `a=FROM:TO,b=FROM:TO`.
+///
+/// # Errors
+/// [`StabilityError`].
+pub fn map(model: &Model, wanted: &Wanted<'_>) -> Result<StabilityMap, StabilityError> {
+    let text = wanted.over.unwrap_or_default();
+    let wrong = || StabilityError::Range { text: text.into() };
+    let all: Vec<Range> = text
+        .split(',')
+        .map(|own| range(model, own))
+        .collect::<Result<_, _>>()?;
+    let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
+    let mut system = System::from_model(model)?;
+    let prepared = Prepared::new(&system)?;
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let over = ranges.clone().map(|own| own.symbol);
+    let values = values_but_these(&system, &over);
+    let found = || steady_set(&system, terms, selection, &values);
+    let mut motions = motions(model, &system, wanted.about, &found)?;
+    for range in &ranges {
+        check_parameter(&system, &motions, range)?;
+    }
+    let given = wanted.at.map(|text| at(model, text)).transpose()?;
+    if let Some(name) = with_values(&mut system, &mut motions, &given.unwrap_or_default()) {
+        let text = wanted.at.unwrap_or_default().into();
+        let why = format!("`{name}` is neither a control nor a parameter of the motion");
+        return Err(StabilityError::At { text, why });
+    }
+    let motion = motions
+        .first()
+        .ok_or(StabilityError::SeveralMotions { names: Vec::new() })?;
+    let own = (&values[..], Speeds::Suitable);
+    let about = Expansion::in_speeds(&system, terms, selection, motion, own)?;
+    let question = Question::about(&about, None);
+    let grid = Grid {
+        g: &system.graph,
+        question: &question,
+        over,
+        ranges: &ranges,
+    };
+    let (growth, is_stable) = grid.sampled();
+    Ok(StabilityMap {
+        curves: grid.curves(&is_stable),
+        equations: grid.equations(),
+        growth,
+        is_stable,
+        name: system.name.clone(),
+        motion: motion.name.clone(),
+        ranges,
+    })
+}
+
+/// The question over a grid of two parameters.
+struct Grid<'a> {
+    g: &'a Graph,
+    question: &'a Question,
+    over: [Symbol; 2],
+    ranges: &'a [Range; 2],
+}
+
+/// A place between two neighbours of the grid: column, row, and whether the next one lies above.
+type Edge = (usize, usize, bool);
+
+impl Grid<'_> {
+    fn place(&self, column: f64, row: f64) -> (f64, f64) {
+        let at = |range: &Range, part: f64| {
+            let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
+            low + (high - low) * part / SIDE as f64
+        };
+        (at(&self.ranges[0], column), at(&self.ranges[1], row))
+    }
+
+    /// The eigenvalue farthest right, and the size of the largest.
+    fn rightmost(&self, (x, y): (f64, f64)) -> Option<(Complex<f64>, f64)> {
+        let value = |s: Symbol| {
+            let mut both = self.over.iter().zip([x, y]);
+            both.find(|(own, _)| **own == s).map(|(_, value)| value)
+        };
+        let numbers = |es: &[Expr]| self.g.evaluate_f64(es, &value).ok();
+        let found = match &self.question.polynomial {
+            Some(own) => {
+                let list = numbers(&own.coefficients)?;
+                let mut found = zeros(&list)?;
+                found.extend(vec![Complex::new(0.0, 0.0); own.further_zeros]);
+                found
+            }
+            None => {
+                let linear = &self.question.linear;
+                let matrix = |rows: &[Vec<Expr>]| -> Option<Vec<Vec<f64>>> {
+                    rows.iter().map(|row| numbers(row)).collect()
+                };
+                let mut found = eigenvalues(&matrix(&linear.left)?, &matrix(&linear.right)?)?;
+                found.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+                found.split_off(linear.family.min(found.len()))
+            }
+        };
+        let size = found
+            .iter()
+            .map(|l| l.norm())
+            .fold(f64::MIN_POSITIVE, f64::max);
+        let last = found.into_iter().max_by(|a, b| a.re.total_cmp(&b.re));
+        Some((last.unwrap_or_default(), size))
+    }
+
+    fn is_stable(&self, own: Option<(Complex<f64>, f64)>) -> bool {
+        let allowed = if self.question.spectrum.paired.is_some() {
+            ON_AXIS
+        } else {
+            0.0
+        };
+        own.is_some_and(|(l, size)| l.re <= allowed * size)
+    }
+
+    fn sampled(&self) -> (Vec<f64>, Vec<bool>) {
+        let mut growth = Vec::new();
+        let mut is_stable = Vec::new();
+        for row in 0..=SIDE {
+            for column in 0..=SIDE {
+                let own = self.rightmost(self.place(column as f64, row as f64));
+                growth.push(own.map_or(f64::NAN, |own| own.0.re));
+                is_stable.push(self.is_stable(own));
+            }
+        }
+        (growth, is_stable)
+    }
+
+    /// The place of the boundary on an edge whose ends differ, with what passes there.
+    fn located(
+        &self,
+        (column, row, is_upwards): Edge,
+        is_stable_first: bool,
+    ) -> ((f64, f64), &'static str) {
+        let at = |part: f64| {
+            let (dx, dy) = if is_upwards { (0.0, part) } else { (part, 0.0) };
+            self.place(column as f64 + dx, row as f64 + dy)
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if self.is_stable(self.rightmost(at(middle))) == is_stable_first {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let place = at(0.5 * (low + high));
+        let is_pair = |(l, size): (Complex<f64>, f64)| l.im.abs() > 1e-5 * size;
+        let kind = if self.rightmost(place).is_some_and(is_pair) {
+            "pair"
+        } else {
+            "zero"
+        };
+        (place, kind)
+    }
+
+    /// The boundaries, joined from cell to cell.
+    fn curves(&self, is_stable: &[bool]) -> Vec<Curve> {
+        let stable = |column: usize, row: usize| is_stable[row * (SIDE + 1) + column];
+        let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                let edges = [
+                    (column, row, false),
+                    (column + 1, row, true),
+                    (column, row + 1, false),
+                    (column, row, true),
+                ];
+                let differs = |&(c, r, up): &Edge| {
+                    stable(c, r)
+                        != if up {
+                            stable(c, r + 1)
+                        } else {
+                            stable(c + 1, r)
+                        }
+                };
+                let crossed: Vec<Edge> = edges.into_iter().filter(differs).collect();
+                for pair in crossed.chunks_exact(2) {
+                    joined.entry(pair[0]).or_default().push(pair[1]);
+                    joined.entry(pair[1]).or_default().push(pair[0]);
+                }
+            }
+        }
+        let mut places = BTreeMap::new();
+        for &(column, row, up) in joined.keys() {
+            let own = self.located((column, row, up), stable(column, row));
+            places.insert((column, row, up), own);
+        }
+        chains(joined)
+            .into_iter()
+            .flat_map(|chain| by_kind(chain.iter().map(|edge| places[edge])))
+            .collect()
+    }
+
+    /// Functions on whose zeros boundaries may lie.
+    fn equations(&self) -> Vec<(&'static str, String)> {
+        let g = self.g;
+        let mut found: Vec<(&'static str, String)> = Vec::new();
+        for own in self.question.deciding(g) {
+            let list = determinants(g, &own.coefficients);
+            let constant = own.coefficients.first().map(|&e| ("zero", e));
+            let pairs = list.len().checked_sub(2).map(|i| ("pair", list[i]));
+            for (kind, e) in constant.into_iter().chain(pairs) {
+                let occurring = factors(g, e, &self.over).unwrap_or_default();
+                for (factor, _) in occurring {
+                    let text = g.text(factor);
+                    let is_new = !found.iter().any(|(_, known)| *known == text);
+                    if is_new && g.contains_any(factor, &self.over) && text.len() <= LONGEST {
+                        found.push((kind, text));
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+/// The zeros of a polynomial, the constant coefficient first: eigenvalues of its companion matrix. A leading coefficient zero leaves none.
+fn zeros(coefficients: &[f64]) -> Option<Vec<Complex<f64>>> {
+    let (leading, rest) = coefficients.split_last()?;
+    let n = rest.len();
+    let entry = |r: usize, c: usize| match (r, c) {
+        (r, c) if c == n - 1 => -rest[r] / leading,
+        (r, c) if r == c + 1 => 1.0,
+        _ => 0.0,
+    };
+    let rows = |f: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
+        (0..n).map(|r| (0..n).map(|c| f(r, c)).collect()).collect()
+    };
+    eigenvalues(&rows(&|r, c| f64::from(u8::from(r == c))), &rows(&entry))
+}
+
+/// Chains of edges: open ones from an end, then closed ones.
+fn chains(mut joined: BTreeMap<Edge, Vec<Edge>>) -> Vec<Vec<Edge>> {
+    let mut found = Vec::new();
+    loop {
+        let ends = joined.iter().find(|(_, others)| others.len() == 1);
+        let start = ends.or_else(|| joined.iter().next()).map(|(edge, _)| *edge);
+        let Some(start) = start else {
+            return found;
+        };
+        let mut chain = vec![start];
+        let mut at = start;
+        while let Some(next) = joined.get_mut(&at).and_then(Vec::pop) {
+            if let Some(others) = joined.get_mut(&next) {
+                if let Some(place) = others.iter().position(|own| *own == at) {
+                    others.remove(place);
+                }
+            }
+            chain.push(next);
+            at = next;
+        }
+        joined.retain(|_, others| !others.is_empty());
+        found.push(chain);
+    }
+}
+
+/// Pieces of a chain of places of the same kind; neighbours share the place between them.
+fn by_kind(places: impl Iterator<Item = ((f64, f64), &'static str)>) -> Vec<Curve> {
+    let mut found: Vec<Curve> = Vec::new();
+    for (place, kind) in places {
+        match found.last_mut() {
+            Some(last) if last.kind == kind => last.points.push(place),
+            Some(last) => {
+                last.points.push(place);
+                found.push(Curve {
+                    kind,
+                    points: vec![place],
+                });
+            }
+            None => found.push(Curve {
+                kind,
+                points: vec![place],
+            }),
+        }
+    }
+    found.retain(|own| own.points.len() > 1);
+    found
+}
+
+/// Columns and rows of the map in a terminal.
+const WIDTH: usize = 60;
+const HEIGHT: usize = 20;
+
+impl StabilityMap {
+    /// Whether the motion is stable at a place of the grid.
+    pub(crate) fn stable_at(&self, column: usize, row: usize) -> bool {
+        self.is_stable[row * (SIDE + 1) + column]
+    }
+
+    /// The map in characters, with the boundaries.
+    pub fn text(&self) -> String {
+        let [x, y] = &self.ranges;
+        let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid\n\n", self.name, self.motion);
+        for line in (0..=HEIGHT).rev() {
+            let row = line * SIDE / HEIGHT;
+            let head = match line {
+                HEIGHT => format!("{} = {}", y.name, y.high.to_f64().value()),
+                0 => format!("{} = {}", y.name, y.low.to_f64().value()),
+                _ => String::new(),
+            };
+            let mark = |c: usize| {
+                if self.stable_at(c * SIDE / WIDTH, row) {
+                    '.'
+                } else {
+                    '#'
+                }
+            };
+            let marks: String = (0..=WIDTH).map(mark).collect();
+            let _ = writeln!(text, "{head:>14} {marks}");
+        }
+        let ends = (x.low.to_f64().value(), x.high.to_f64().value());
+        let _ = writeln!(text, "{:>14} {} = {} to {}\n", "", x.name, ends.0, ends.1);
+        for curve in &self.curves {
+            let what = if curve.kind == "pair" {
+                "a pair of eigenvalues passes the axis"
+            } else {
+                "an eigenvalue passes through zero"
+            };
+            let (Some(a), Some(b)) = (curve.points.first(), curve.points.last()) else {
+                continue;
+            };
+            let _ = writeln!(
+                text,
+                "boundary from ({:.9}, {:.9}) to ({:.9}, {:.9}), {} places: {what}",
+                a.0,
+                a.1,
+                b.0,
+                b.1,
+                curve.points.len()
+            );
+        }
+        for (kind, e) in &self.equations {
+            let what = if *kind == "pair" {
+                "pairs pass on zeros of"
+            } else {
+                "eigenvalues are zero on zeros of"
+            };
+            let _ = writeln!(text, "{what} {e}");
+        }
+        text
+    }
+
+    /// The map as JSON: growth over the grid, boundaries, their equations.
+    pub fn json(&self) -> Value {
+        let number = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
+        let rows = self.growth.chunks_exact(SIDE + 1);
+        let rows = rows.map(|row| row.iter().map(|x| number(*x)).collect::<Vec<_>>());
+        let range = |own: &Range| json!({"parameter": own.name, "from": own.low.to_f64().value(), "to": own.high.to_f64().value()});
+        json!({
+            "system": self.name,
+            "motion": self.motion,
+            "evidence": "numerical",
+            "ranges": self.ranges.iter().map(range).collect::<Vec<_>>(),
+            "growth": rows.collect::<Vec<_>>(),
+            "boundaries": self.curves.iter().map(|own| json!({
+                "kind": own.kind,
+                "points": own.points.iter().map(|(x, y)| json!([x, y])).collect::<Vec<_>>(),
+            })).collect::<Vec<_>>(),
+            "equations": self.equations.iter().map(|(kind, e)| json!({"kind": kind, "function": e})).collect::<Vec<_>>(),
+        })
+    }
+}
