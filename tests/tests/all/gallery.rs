@@ -51,6 +51,7 @@ const NAMES: &[&str] = &[
     "sphere-on-turntable",
     "suslov",
     "third-order-linear",
+    "tippe-top",
     "trailer",
     "vertical-rolling-disc",
     "watt-governor",
@@ -209,6 +210,12 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "witness.hamilton-jacobi#separated",
         "no quadratures were written",
     ),
+    // The stem turns over, and velocities that the operator divides by vanish again and again.
+    (
+        "tippe-top/model.toml",
+        "witness.universal-relation#vujanovic",
+        "on which the operator has no pole",
+    ),
     // An index belongs to a κ, not to the curve.
     ("appell-hamel/model.toml", "witness.index", "not unique"),
     ("appell-hamel/to-rest.toml", "witness.index", "not unique"),
@@ -256,6 +263,12 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "liouville.integrable",
         "missing; the invariant measure is known",
     ),
+    // The shaken pendulum is chaotic.
+    (
+        "kapitza-pendulum/model.toml",
+        "liouville.integrable",
+        "missing; the invariant measure is known",
+    ),
     (
         "pendulum-particle/model.toml",
         "liouville.integrable",
@@ -288,6 +301,16 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "an invariant measure of the reduced motion is not known",
     ),
     (
+        "tippe-top/model.toml",
+        "liouville.integrable",
+        "an invariant measure of the reduced motion is not known",
+    ),
+    (
+        "watt-governor/model.toml",
+        "liouville.integrable",
+        "an invariant measure of the reduced motion is not known",
+    ),
+    (
         "whipple-bicycle/general.toml",
         "liouville.integrable",
         "an invariant measure of the reduced motion is not known",
@@ -296,6 +319,12 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "whipple-bicycle/model.toml",
         "liouville.integrable",
         "an invariant measure of the reduced motion is not known",
+    ),
+    // The divergence of the governor is constant: densities with the speed of the shaft are not excluded.
+    (
+        "watt-governor/model.toml",
+        "measure.invariant",
+        "no density depends on the coordinates only",
     ),
     // Gravity moves the bicycle from rest, and no steady motion of one quasi-velocity is known: densities with velocities stay.
     (

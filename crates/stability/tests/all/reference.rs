@@ -380,3 +380,134 @@ fn variables_know_what_they_are() {
         [Variable::Coordinate(0), Variable::Speed(0)]
     );
 }
+
+/// A ball whose mass centre lies a below its middle, or above it for negative a: tilts al and be of its axis in axes that do not spin.
+const TIPPE_TOP: &str = r#"
+coordinates = ["x", "y", "al", "be", "ga"]
+parameters = { m = 0.02, R = 0.015, a = 0.003, A = 0.0000018, C = 0.000002, g = 9.81, mu = 0.05, n = 60 }
+[define]
+z = "R - a cos(al) cos(be)"
+w1 = "al' + ga' sin(be)"
+w2 = "be' cos(al) - ga' sin(al) cos(be)"
+w3 = "be' sin(al) + ga' cos(al) cos(be)"
+vx = "x' + w2 (a cos(al) cos(be) - R) + w3 a sin(al) cos(be)"
+vy = "y' + w3 a sin(be) - w1 (a cos(al) cos(be) - R)"
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2 + z'^2) + 1/2 A (al'^2 cos(be)^2 + be'^2) + 1/2 C (ga' + al' sin(be))^2"
+V = "m g z"
+"#;
+
+/// The ball with this place of the mass centre and these further sections, spinning about the vertical at n.
+fn tippe_top(a: &str, further: &str) -> Case {
+    let text = TIPPE_TOP.replace("a = 0.003", &format!("a = {a}"));
+    Case::new(&format!("{text}{further}"))
+}
+
+fn spinning(case: &Case) -> chetaev_mechanics::SteadyMotion {
+    case.motion(&[
+        ("al", "0"),
+        ("be", "0"),
+        ("al'", "0"),
+        ("be'", "0"),
+        ("ga'", "n"),
+        ("x'", "0"),
+        ("y'", "0"),
+    ])
+}
+
+/// Where it slides with viscous friction the tippe top turns over: the energy at a given value of Jellett's integral,
+/// `m g (R − a cos θ) + k²/(2 (A R² sin² θ + C (R cos θ − a)²))`, has a minimum at the spin with the mass centre below for
+/// `n² < m g a (R − a)²/(R (A R − C (R − a)))`, and above for `n² > m g a (R + a)²/(R (C (R + a) − A R))` (Karapetyan and Kuleshov 2002 for the
+/// method).
+#[test]
+fn the_tippe_top_turns_over_where_it_slides() {
+    let sliding = "[forces]\nrayleigh = \"1/2 mu (vx^2 + vy^2)\"\n";
+    // m g a = 5.886e-4; the squares are 1883.52 and 1412.64.
+    for (a, square, is_stable_below) in [("0.003", 188_352, true), ("-0.003", 141_264, false)] {
+        let case = tippe_top(a, sliding);
+        let linear = case.linear(&spinning(&case), "n").unwrap();
+        let found = case.ranges(&linear, "n", 1, 100).joined();
+        assert_eq!(found.boundaries.len(), 1, "{a}: {found:?}");
+        let root = &found.boundaries[0].root;
+        let expected = Rational::from_parts(square.into(), 100_u32.into());
+        assert!(&root.low * &root.low <= expected, "{a}: {root:?}");
+        assert!(expected <= &root.high * &root.high, "{a}: {root:?}");
+        let stable: Vec<bool> = found.regions.iter().map(|r| r.is_left).collect();
+        assert_eq!(stable, [is_stable_below, !is_stable_below], "{a}");
+    }
+}
+
+/// Where it rolls it does not: with the mass centre below the spin is linearly stable at any rate, and above for fast spins; the polynomials are
+/// those of the reference (Routh 1905).
+#[test]
+fn the_tippe_top_that_rolls_does_not_turn_over() {
+    let rolling = "[constraints]\nalong = \"vx = 0\"\nacross = \"vy = 0\"\n";
+    for (a, n, middle, last) in [
+        ("0.003", 60.0, 5_406.042_077_580_539, 15_817.899_408_284_024),
+        (
+            "0.003",
+            200.0,
+            57_523.800_862_005_99,
+            15_817.899_408_284_024,
+        ),
+        (
+            "-0.003",
+            60.0,
+            2_733.272_421_760_134_4,
+            5_053.355_387_523_629,
+        ),
+        (
+            "-0.003",
+            200.0,
+            31_807.229_806_996_66,
+            5_053.355_387_523_629,
+        ),
+    ] {
+        let case = tippe_top(a, rolling);
+        let linear = case.linear(&spinning(&case), "n").unwrap();
+        let polynomial = Characteristic::of(&case.system.graph, &linear).unwrap();
+        let list: Vec<f64> = polynomial
+            .coefficients
+            .iter()
+            .map(|&e| case.number(e, &[("n", n)]))
+            .collect();
+        assert_eq!(list.len(), 5, "{list:?}");
+        for (own, expected) in list.iter().zip([last, 0.0, middle, 0.0, 1.0]) {
+            let error = (own / list[4] - expected).abs();
+            assert!(error <= 1e-12 * expected.max(1.0), "{a} {n}: {list:?}");
+        }
+    }
+}
+
+/// Without a damper the condition of the caster, `m b (e − b) > J`, does not contain the speed.
+#[test]
+fn a_caster_without_damper_has_no_critical_speed() {
+    for (inertia, is_stable) in [("0.06", false), ("0.005", true)] {
+        let case = Case::new(&format!(
+            r#"
+coordinates = ["X", "y", "theta"]
+parameters = {{ m = 5, J = {inertia}, b = 0.03, e = 0.1, k = 20000, v = 1 }}
+[define]
+cx = "X - b cos(theta)"
+cy = "y - b sin(theta)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2) + 1/2 J theta'^2"
+V = "1/2 k y^2"
+[constraints]
+drive = "X' = v"
+wheel = "-X' sin(theta) + y' cos(theta) - e theta' = 0"
+"#
+        ));
+        let motion = case.motion(&[
+            ("y", "0"),
+            ("theta", "0"),
+            ("theta'", "0"),
+            ("y'", "0"),
+            ("X'", "v"),
+        ]);
+        let linear = case.linear(&motion, "v").unwrap();
+        let found = case.ranges(&linear, "v", 1, 100);
+        assert!(found.boundaries.is_empty(), "{found:?}");
+        assert_eq!(found.regions[0].is_left, is_stable);
+    }
+}
