@@ -1,4 +1,4 @@
-"""Equations of motion as functions of other array libraries: JAX, which differentiates and maps them, and CasADi for optimal control."""
+"""Equations of motion for other libraries: JAX, which differentiates and maps them, CasADi and opty for optimal control."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .system import System
 
 
 class Exported:
@@ -80,3 +82,51 @@ def names_of(source: str) -> tuple[list[str], list[str]]:
         inside, _, _ = rest.partition(")\n")
         found.append([name.strip() for name in inside.split(",") if name.strip()])
     return found[0], found[1]
+
+
+class Residuals:
+    """Equations of the first order as opty takes them, in SymPy: what vanishes along the motion.
+
+    Attributes
+    ----------
+    equations : sympy.Matrix of shape (states, 1)
+        Expressions in the states, their derivatives, the parameters and the time.
+    states : list of sympy functions of the time
+        Coordinates, then speeds. A velocity that is a speed itself is called as its coordinate, with ``_dot`` behind.
+    parameters : dict from sympy symbols to float
+        With the values of the model.
+    time : sympy.Symbol
+        The time.
+    """
+
+    def __init__(self, system: System) -> None:
+        import sympy as sp
+
+        derived = system.derive("reduced")
+        found = derived.to_sympy()["reduced"]
+        rows = [own.lhs - own.rhs for title in ("equations of motion", "kinematics") for own in found.get(title, [])]
+        if any(title.endswith(": linear systems") for title in found):
+            raise NotImplementedError("the shortest equations share solutions of linear systems, which stand in no residual")
+        self.time: Any = next(own for row in rows for own in row.atoms(sp.Derivative)).variables[0]
+
+        def function(name: str) -> Any:
+            return sp.Function(name, real=True)(self.time)
+
+        speeds = []
+        for name in derived[0].state:
+            if name.endswith("'"):
+                place, speed = function(name[:-1]), function(f"{name[:-1]}_dot")
+                rate = place.diff(self.time)
+                rows = [own.xreplace({place.diff(self.time, 2): speed.diff(self.time)}).xreplace({rate: speed}) for own in rows]
+                rows.append(rate - speed)
+                speeds.append(speed)
+            else:
+                speeds.append(function(name))
+        self.states: list[Any] = [function(name) for name in system.coordinates] + speeds
+        self.equations: Any = sp.Matrix(rows)
+        symbols = self.equations.free_symbols - {self.time}
+        values = {name: float(sp.sympify(value)) for name, value in system.compile().parameters.items()}
+        self.parameters: dict[Any, float] = {own: values[own.name] for own in sorted(symbols, key=str)}
+
+    def __repr__(self) -> str:
+        return f"<{len(self.states)} residuals of {', '.join(own.func.__name__ for own in self.states)}>"

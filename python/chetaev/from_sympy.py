@@ -139,15 +139,17 @@ def of_bodies(
 
     A velocity that is no derivative of a function of the coordinates, as of a wheel whose rolling is put into it, belongs to a place
     that the coordinates do not tell. This place is a coordinate of its own here, and the velocity a constraint: Lagrange's operator of a
-    kinetic energy into which constraints were put is wrong (Lindelöf's mistake). ``auxiliary`` speeds are zero, and ``derived`` are
+    kinetic energy into which constraints were put is wrong (Lindelöf's mistake). So it is with speeds that only velocity constraints
+    determine, as that of a wheel about its axle: they are rates of coordinates of their own. ``auxiliary`` speeds are zero, and ``derived`` are
     expressions that are said to vanish along the motion.
     """
     t = coordinates[0].args[0]
     coordinates = list(coordinates)
     zero = {own: sp.S.Zero for own in auxiliary}
-    equations = [_put(own, zero) for own in [*kinematics, *velocity]]
+    equations = [_put(own, zero) for own in kinematics]
     solved, definitions, left = _solved(equations, [own for own in speeds if own not in zero], coordinates)
     known = zero | solved
+    left += [own for own in (_put(own, known) for own in velocity) if own != 0]
     moving: set[Any] = set().union(*(own.atoms(sp.Derivative) for own in solved.values()))
     coordinates += sorted({own.expr for own in moving} - set(coordinates), key=str)
     rates = [own.diff(t) for own in coordinates]
@@ -156,17 +158,34 @@ def of_bodies(
         return _put(expression, known)
 
     places: list[Any] = []
-    constraints = {f"position_{number}": own for number, own in enumerate(holonomic, 1)}
+    positions = list(holonomic)
+    constraints = {f"position_{number}": own for number, own in enumerate(positions, 1)}
     constraints |= {f"velocity_{number}": own for number, own in enumerate(left, 1)}
     taken = {own.func.__name__ for own in _functions([*coordinates, *speeds])}
     kinetic = sp.S.Zero
-    for number, own in enumerate(bodies, 1):
-        center = own.masscenter if hasattr(own, "masscenter") else own.point
-        moved = center.vel(frame).to_matrix(frame).applyfunc(in_rates)
-        if hasattr(own, "central_inertia"):
-            kinetic += in_rates(_turning(own, frame))
-        for axis, component, is_rate in zip("xyz", moved, _are_rates([own.xreplace(definitions) for own in moved], coordinates, t), strict=True):
-            if not is_rate:
+    bodies = list(bodies)
+    velocities = [own.masscenter.vel(frame).to_matrix(frame).applyfunc(in_rates) for own in bodies]
+    turned = [_Turning(own, frame, in_rates) if hasattr(own, "central_inertia") else None for own in bodies]
+    vectors = [*velocities, *(own.angular for own in turned if own is not None)]
+    point = _Point(coordinates, positions, [one.xreplace(definitions) for own in vectors for one in own], t)
+    for number, (own, moved, turning) in enumerate(zip(bodies, velocities, turned, strict=True), 1):
+        if turning is not None:
+            if not point.is_turning([one.xreplace(definitions) for one in turning.angular]):
+                name = f"{own.name}_turn"
+                name = name if name not in taken else f"{name}_body_{number}"
+                taken.add(name)
+                turn = sp.Function(name)(t)
+                found = turning.about_its_axis(turn.diff(t), in_rates)
+                if found is None:
+                    raise ValueError(
+                        f"the angular velocity of {own.name} belongs to no orientation that the coordinates and the integrals of "
+                        "further speeds tell: kinematical equations are missing"
+                    )
+                places.append(turn)
+                constraints[f"turn_{number}"] = turn.diff(t) - found
+            kinetic += turning.energy()
+        for axis, component in zip("xyz", moved, strict=True):
+            if component != 0 and not point.is_rate(component.xreplace(definitions)):
                 name = f"{own.name}_{axis}"
                 name = name if name not in taken else f"{name}_body_{number}"
                 taken.add(name)
@@ -209,15 +228,47 @@ def _put(expression: Any, known: Mapping[Any, Any]) -> Any:
         found = found.xreplace({own.diff(t, order): sp.sympify(value).diff(t, order) for own, value in known.items()})
 
 
-def _turning(body: Any, frame: Any) -> Any:
-    """The kinetic energy of a rigid body about its centre of mass, whose angular velocity must be that of its orientation."""
-    return body.frame.ang_vel_in(frame).dot(body.central_inertia.dot(body.frame.ang_vel_in(frame))) / 2
+class _Turning:
+    """How a rigid body turns: its angular velocity and its kinetic energy about the centre of mass."""
+
+    def __init__(self, body: Any, frame: Any, in_rates: Any) -> None:
+        self._body, self._frame = body, frame
+        own = body.frame.ang_vel_in(frame)
+        self._of_axes = own
+        self._inertia = body.central_inertia
+        self.angular = own.to_matrix(frame).applyfunc(in_rates)
+        self._in_rates = in_rates
+
+    def energy(self) -> Any:
+        """½ ω·I·ω."""
+        return self._in_rates(self._of_axes.dot(self._inertia.dot(self._of_axes)) / 2)
+
+    def about_its_axis(self, rate: Any, in_rates: Any) -> Any:
+        """Takes a rate for the turn about the axis of a body of revolution against the axes in which its inertia is stated, and gives what
+        it is said to be; ``None`` where the body turns otherwise.
+
+        So turns a wheel whose rolling is put into its angular velocity.
+        """
+        axes = {unit.args[0][1] for _, *pair in self._inertia.args for unit in pair}
+        if len(axes) != 1:
+            return None
+        (own,) = axes
+        matrix = self._inertia.to_matrix(own)
+        apart = self._body.frame.ang_vel_in(own).to_matrix(own).applyfunc(in_rates)
+        turns = [k for k in range(3) if apart[k] != 0]
+        if len(turns) != 1 or not matrix.is_diagonal():
+            return None
+        (k,) = turns
+        if sp.simplify(matrix[(k + 1) % 3, (k + 1) % 3] - matrix[(k + 2) % 3, (k + 2) % 3]) != 0:
+            return None
+        self._of_axes = own.ang_vel_in(self._frame) + rate * (own.x, own.y, own.z)[k]
+        return apart[k]
 
 
 def _solved(
     equations: Sequence[Any], speeds: Sequence[Any], coordinates: Sequence[Any]
 ) -> tuple[dict[Any, Any], dict[Any, Any], list[Any]]:
-    """Speeds by rates from as many equations as determine them, the first ones first; names for coefficients that are long, and what
+    """Speeds by rates from as many equations as determine them, short ones first; names for coefficients that are long, and what
     the other equations say of the rates.
 
     A speed that no equation determines is the rate of a path of its own.
@@ -235,7 +286,9 @@ def _solved(
     ours, theirs = matrix[:, : len(speeds)], -matrix[:, len(speeds) :].row_join(-right)
     numbers = _numbers(ours)
     rows: list[int] = []
-    for row in range(ours.rows):
+    # Short equations are of angles and their rates, long ones may have a rolling in them; paths are for what is left open.
+    order = sorted(range(stated), key=lambda row: equations[row].count_ops()) + [*range(stated, ours.rows)]
+    for row in order:
         if len(rows) < len(speeds) and numbers.extract([*rows, row], range(len(speeds))).rank() > len(rows):
             rows.append(row)
     coefficients = ours.extract(rows, range(len(speeds))).LUsolve(theirs.extract(rows, range(theirs.cols)))
@@ -255,42 +308,114 @@ def _solved(
     return solved, definitions, [own for own in left if own != 0]
 
 
-def _are_rates(components: Sequence[Any], coordinates: Sequence[Any], t: Any) -> list[bool]:
-    """Which velocities, linear in the rates, are derivatives of functions of coordinates and time: their coefficients have no curl.
+class _Point:
+    """A random point of the positions, where functions are asked with fifty digits: what their derivatives say along the positions there."""
 
-    That is asked at a random point, by differences with fifty digits. Where it seems not to be so, nothing wrong comes of it.
-    """
-    import mpmath
+    def __init__(self, coordinates: Sequence[Any], holonomic: Iterable[Any], everything: Iterable[Any], t: Any) -> None:
+        import mpmath
 
-    places, rates = [t, *coordinates], [own.diff(t) for own in coordinates]
-    others = sorted(sp.Matrix(components).free_symbols - {t}, key=str)
-    names = [sp.Dummy() for _ in [*places, *rates, *others]]
-    renamed = dict(zip([*places, *rates, *others], names, strict=True))
-    plain = [own.xreplace(renamed) for own in components]
-    known = [not own.atoms(AppliedUndef, sp.Derivative) for own in plain]
-    values = sp.lambdify(names, [own if is_known else 0 for own, is_known in zip(plain, known, strict=True)], modules="mpmath", cse=True)
-    count = len(places)
-    with mpmath.workdps(50):
-        point = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in places]
-        constants = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in others]
-        step, small = mpmath.mpf(10) ** -15, mpmath.mpf(10) ** -20
+        self.mp: Any = mpmath
+        self.t = t
+        self.places = [t, *coordinates]
+        self.rates = [own.diff(t) for own in coordinates]
+        conditions = [sp.sympify(own) for own in holonomic]
+        whole = [sp.sympify(own) for own in [*conditions, *everything]]
+        symbols = set().union(*(own.free_symbols for own in whole)) - {t}
+        # Other functions of the time have values and derivatives of their own.
+        free = sorted(_functions(whole) - set(coordinates), key=str)
+        self.free = {own: [sp.Dummy() for _ in range(3)] for own in free}
+        self.others: list[Any] = sorted(symbols, key=str) + [name for own in self.free.values() for name in own]
+        with mpmath.workdps(50):
+            self.values = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in self.places]
+            self.constants = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in self.others]
+            self.along: Any = mpmath.eye(len(self.places))
+            if conditions:
+                self._meet(conditions)
 
-        def coefficients(at: list[Any]) -> list[list[Any]]:
-            """Of the time, then of the rates, for each component."""
-            free = values(*at, *[0] * len(rates), *constants)
-            units = [[int(own == number) for own in range(len(rates))] for number in range(len(rates))]
-            along = [values(*at, *unit, *constants) for unit in units]
-            return [[start, *(own[number] - start for own in along)] for number, start in enumerate(free)]
+    def function(self, expressions: Sequence[Any]) -> Any:
+        """Of places, rates and constants, in this order."""
+        names = [sp.Dummy() for _ in [*self.places, *self.rates, *self.others]]
+        renamed: dict[Any, Any] = dict(zip([*self.places, *self.rates, *self.others], names, strict=True))
+        for own, (value, rate, bend) in self.free.items():
+            renamed[own] = renamed[value] + renamed[rate] * names[0]
+            renamed |= {own.diff(self.t): renamed[rate], own.diff(self.t, 2): renamed[bend]}
+        plain = [sp.sympify(own).xreplace(renamed) for own in expressions]
+        return sp.lambdify(names, plain, modules="mpmath", cse=True)
+
+    def _meet(self, conditions: Sequence[Any]) -> None:
+        """Newton's steps of least norm to the positions, and the directions along them."""
+        mp, count = self.mp, len(self.places)
+        slopes = [own.diff(place) for own in conditions for place in self.places]
+        found = self.function([*conditions, *slopes])
+        for _ in range(60):
+            numbers = found(*self.values, *[0] * len(self.rates), *self.constants)
+            left = mp.matrix(numbers[: len(conditions)])
+            slope = mp.matrix(len(conditions), count)
+            for number, value in enumerate(numbers[len(conditions) :]):
+                slope[number // count, number % count] = value
+            slope[:, 0] = mp.zeros(len(conditions), 1)
+            u, sizes, v = mp.svd_r(slope, full_matrices=True)
+            rank = sum(1 for own in sizes if own > 1e-12)
+            if mp.norm(left) < mp.mpf(10) ** -40:
+                break
+            step = mp.zeros(count, 1)
+            for k in range(rank):
+                step += v[k, :].T * ((u[:, k].T * left)[0] / sizes[k])
+            self.values = [value - step[k] for k, value in enumerate(self.values)]
+        else:
+            raise ValueError("no positions were found that satisfy the holonomic constraints")
+        self.along = v[rank:, :]
+
+    def curls(self, components: Sequence[Any]) -> tuple[list[list[Any]], list[Any]]:
+        """Of a vector linear in the rates: its coefficients A along the positions, of the time first; and for each component the differences
+        ∂A_j/∂x_i − ∂A_i/∂x_j along the positions."""
+        function = self.function(components)
+        mp, n, count = self.mp, len(self.rates), len(self.places)
+        step = mp.mpf(10) ** -15
+
+        def coefficients(at: Sequence[Any]) -> list[list[Any]]:
+            free = function(*at, *[0] * n, *self.constants)
+            rates = [function(*at, *[int(own == number) for own in range(n)], *self.constants) for number in range(n)]
+            return [[start, *(own[number] - start for own in rates)] for number, start in enumerate(free)]
 
         slopes = []
         for number in range(count):
-            ends = [coefficients([own + sign * step * (k == number) for k, own in enumerate(point)]) for sign in (1, -1)]
+            ends = [coefficients([own + sign * step * (k == number) for k, own in enumerate(self.values)]) for sign in (1, -1)]
             slopes.append([[(p - m) / (2 * step) for p, m in zip(*own, strict=True)] for own in zip(*ends, strict=True)])
-        pairs = [(i, j) for i in range(count) for j in range(i)]
-        return [
-            is_known and all(abs(slopes[i][number][j] - slopes[j][number][i]) < small for i, j in pairs)
-            for number, is_known in enumerate(known)
-        ]
+        curls = []
+        for number in range(len(components)):
+            curl = mp.matrix(count, count)
+            for i in range(count):
+                for j in range(count):
+                    curl[i, j] = slopes[i][number][j] - slopes[j][number][i]
+            curls.append(self.along * curl * self.along.T)
+        here = coefficients(self.values)
+        return [list(self.along * mp.matrix(own)) for own in here], curls
+
+    def is_rate(self, component: Any) -> bool:
+        """Whether a velocity is the derivative of a function of coordinates and time: its coefficients have no curl.
+
+        Where it seems not to be so, nothing wrong comes of it.
+        """
+        with self.mp.workdps(50):
+            _, (curl,) = self.curls([component])
+            return bool(self.mp.mnorm(curl, "f") < 1e-18)
+
+    def is_turning(self, components: Sequence[Any]) -> bool:
+        """Whether a vector is the angular velocity of an orientation that coordinates and time determine.
+
+        In the axes of an observer at rest its coefficients then satisfy ∂Ω_j/∂q_i − ∂Ω_i/∂q_j = Ω_i × Ω_j (Maurer and Cartan).
+        """
+        with self.mp.workdps(50):
+            values, curls = self.curls(components)
+            count = len(values[0])
+            for axis in range(3):
+                a, b = values[(axis + 1) % 3], values[(axis + 2) % 3]
+                for i in range(count):
+                    for j in range(count):
+                        if abs(curls[axis][i, j] - (a[i] * b[j] - b[i] * a[j])) > 1e-18:
+                            return False
+            return True
 
 
 def _numbers(matrix: Any) -> Any:
@@ -317,8 +442,10 @@ def statement(what: Any, parameters: Mapping[Any, Any] | None = None, *, derived
         return _of_lagrange(what, parameters, derived)
     if is_kane:
         equations = list(what.mass_matrix * sp.Matrix([own.diff(own.args[0]) for own in what.u]) - what.forcing) if derived else []
+        # As they were stated, and not solved for the rates.
+        kinematics = what._k_kqdot_implicit * sp.Matrix(what._qdot) + what._k_ku_implicit * sp.Matrix(what.u) + what._f_k_implicit
         return of_bodies(
-            what._inertial, list(what.q), list(what.u), list(what._k_kqdot * sp.Matrix(what._qdot) + what._k_ku * sp.Matrix(what.u) + what._f_k),
+            what._inertial, list(what.q), list(what.u), list(kinematics),
             what.bodies, what.loads or [],
             holonomic=list(what._f_h),
             velocity=list(what._k_nh * sp.Matrix(what.u) + what._f_nh) if what._k_nh else [],

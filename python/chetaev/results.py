@@ -463,8 +463,9 @@ class Trajectory(Result):
         Names of the columns: ``t``, coordinates, velocities, accelerations, multipliers, ``energy``, integrals.
     """
 
-    def __init__(self, outcome: Outcome, text: str) -> None:
+    def __init__(self, outcome: Outcome, text: str, system: System | None = None) -> None:
         self._outcome = outcome
+        self._system = system
         super().__init__(json.loads(outcome.run([])), text)
         self.names, self._columns = outcome.columns()
 
@@ -490,6 +491,23 @@ class Trajectory(Result):
     def sol(self) -> DenseOutput:
         """The motion between the rows: ``trajectory.sol(t)``."""
         return DenseOutput(self)
+
+    def sensitivities(self, by: str | Sequence[str]) -> dict[str, NDArray[np.float64]]:
+        """Derivatives of coordinates and velocities by parameters and given initial values, at the times of the rows.
+
+        Parameters
+        ----------
+        by : str or list of str
+            Names, as of :meth:`chetaev.System.sensitivity`.
+
+        Returns
+        -------
+        dict
+            A column for each of ``t``, ``x``, ``d x/d a``, …
+        """
+        if self._system is None:
+            raise ValueError("sensitivities are computed of what System.simulate gave")
+        return self._system.sensitivity(by, self.t)
 
     @property
     def finished(self) -> bool:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .compiled import Compiled
-    from .exported import Exported
+    from .exported import Exported, Residuals
     from .sweeps import Sweep
     from .widget import Widget
 
@@ -405,7 +405,7 @@ class System:
         )
         with _Progress(progress) as tell:
             outcome = self._native.simulate(asked, tell)
-        return _finished(Trajectory(outcome, outcome.summary()), outcome, out)
+        return _finished(Trajectory(outcome, outcome.summary(), self), outcome, out)
 
     def plot(
         self,
@@ -809,6 +809,12 @@ class System:
         from .exported import casadi_library
 
         return self._exported(casadi_library(), formulation)
+
+    def to_opty(self) -> Residuals:
+        """Equations of the first order that vanish along the motion, in SymPy, with states and parameters: what opty's ``Problem`` takes."""
+        from .exported import Residuals
+
+        return Residuals(self)
 
     def _exported(self, library: Any, formulation: str | None) -> Exported:
         from .exported import Exported, names_of

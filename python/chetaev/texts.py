@@ -6,7 +6,6 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from numbers import Integral, Rational, Real
 from typing import Any
 
@@ -28,7 +27,7 @@ def exact(value: Any) -> str:
         return str(int(value))
     if isinstance(value, Rational):
         return f"{int(value.numerator)}/{int(value.denominator)}"
-    if isinstance(value, Real):
+    if isinstance(value, Real) and not hasattr(value, "free_symbols"):
         number = float(value)
         if not math.isfinite(number):
             raise ValueError(f"{number} is no finite number")
@@ -55,7 +54,8 @@ def of_sympy(value: Any) -> str:
             return str(function + "'" * int(count))
 
         def _print_Float(self, expr: Any) -> str:
-            return repr(float(expr))
+            # More digits than a double has are kept.
+            return repr(float(expr)) if expr._prec <= 53 else str(expr)
 
         def _print_Function(self, expr: Any) -> str:
             if isinstance(expr, sp.core.function.AppliedUndef):
@@ -119,7 +119,8 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(own)}" for key, own in value.items()) + " }"
-    if isinstance(value, (Integral, Real)) and not isinstance(value, Fraction):
+    # A quotient is an expression, and stands in quotation marks.
+    if isinstance(value, Integral) or isinstance(value, Real) and not isinstance(value, Rational):
         return exact(value)
     if isinstance(value, str):
         return _text(value)

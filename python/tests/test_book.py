@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
-MODULES = ["chetaev", "chetaev.functional", "chetaev.sweeps", "chetaev.system"]
+MODULES = ["chetaev", "chetaev.claims", "chetaev.functional", "chetaev.sweeps", "chetaev.system"]
 
 
 def test_the_chapter_gives_what_it_shows() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import chetaev
 from chetaev import System
 
 RNG = np.random.default_rng(3)
@@ -140,3 +141,30 @@ def test_motions_are_known_between_the_rows() -> None:
         motion.sol(10.01)
     with pytest.raises(ValueError, match="a number or a vector"):
         motion.sol([[1.0]])
+
+
+def test_sensitivities_are_those_of_the_closed_form() -> None:
+    # x = a cos(w t) with k = w² stated by w; the start has a too.
+    system = System(
+        "o", coordinates=["x"], parameters={"w": 1.3, "k": "w^2", "a": 0.7}, lagrangian="1/2 x'^2 - 1/2 k x^2",
+        initial={"x": "a"}, simulation={"t_end": 6, "output": 60, "tolerance": 1e-12},
+    )
+    motion = system.simulate()
+    found = motion.sensitivities(["a", "w"])
+    t = motion.t
+    np.testing.assert_array_equal(found["t"], t)
+    np.testing.assert_allclose(found["d x/d a"], np.cos(1.3 * t), atol=1e-8)
+    np.testing.assert_allclose(found["d x/d w"], -0.7 * t * np.sin(1.3 * t), atol=1e-8)
+    np.testing.assert_allclose(found["d x'/d w"], -0.7 * (np.sin(1.3 * t) + 1.3 * t * np.cos(1.3 * t)), atol=1e-8)
+    with pytest.raises(chetaev.ChetaevError):
+        motion.sensitivities(["b"])
+
+
+def test_sensitivities_are_those_of_neighbouring_motions() -> None:
+    sleigh = System.from_gallery("chaplygin-sleigh")
+    motion = sleigh.simulate(t_end=4, tolerance=1e-12)
+    found = motion.sensitivities("a,m")
+    for name, value in (("a", 0.25), ("m", 1.5)):
+        ends = [sleigh.with_values(**{name: value + h}).simulate(t_end=4, tolerance=1e-12) for h in (1e-5, -1e-5)]
+        for own in ("x", "phi", "y'"):
+            np.testing.assert_allclose(found[f"d {own}/d {name}"], (ends[0][own] - ends[1][own]) / 2e-5, atol=1e-5)

@@ -51,3 +51,19 @@ def test_casadi(name: str, gallery: Path) -> None:
     state, known = casadi.SX.sym("y", len(y)), casadi.SX.sym("p", len(p))
     function = casadi.Function("f", [state, known], [found.rhs(0, state, known)])
     np.testing.assert_allclose(np.array(function(y, p)).ravel(), ours(0.0, y, p), rtol=1e-12, atol=1e-14)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_residuals_for_opty_vanish_along_the_motion(name: str, gallery: Path) -> None:
+    sympy = pytest.importorskip("sympy")
+    path = gallery / name / "model.toml"
+    ours, y, p = rates(path)
+    found = System.from_file(path).to_opty()
+    names = System.from_file(path).to_casadi().state
+    assert found.equations.shape == (len(found.states), 1) and len(found.states) == len(y)
+    assert [own.func.__name__.replace("_dot", "'") for own in found.states] == names
+    moving = {own.diff(found.time): value for own, value in zip(found.states, ours(0.0, y, p), strict=True)}
+    state = dict(zip(found.states, y, strict=True))
+    left = found.equations.xreplace(moving).xreplace(state).xreplace(found.parameters).xreplace({found.time: 0})
+    np.testing.assert_allclose(np.array(left, dtype=float), 0, atol=1e-10)
+    assert all(isinstance(own, sympy.Symbol) for own in found.parameters)

@@ -145,3 +145,45 @@ def test_expressions_go_to_sympy_and_back(text: str) -> None:
         point = {own: value for own, value in zip(sorted(there.atoms(sp.Function, sp.Symbol, sp.Derivative), key=str), RNG.uniform(0.1, 1, 50), strict=False)}
         difference = (there - back).xreplace(point)
         assert abs(complex(difference.evalf())) < 1e-9
+
+
+def test_bodies_that_turn_by_no_orientation_are_refused() -> None:
+    # Three speeds about the axes of a body are no rates of angles: Lagrange's operator knows nothing of them.
+    q, u1, u2, u3 = me.dynamicsymbols("q u1 u2 u3")
+    m, i1, i2, i3 = sp.symbols("m i1 i2 i3")
+    N, B = me.ReferenceFrame("N"), me.ReferenceFrame("B")
+    B.orient_axis(N, N.z, q)
+    B.set_ang_vel(N, u1 * B.x + u2 * B.y + u3 * B.z)
+    C = me.Point("C")
+    C.set_vel(N, 0)
+    body = me.RigidBody("top", C, B, m, (me.inertia(B, i1, i2, i3), C))
+    method = me.KanesMethod(N, [q], [u1, u2, u3], kd_eqs=[q.diff() - u3])
+    method.kanes_equations([body])
+    with pytest.raises(ValueError, match="angular velocity of top belongs to no orientation"):
+        System.from_sympy(method)
+
+
+def test_a_wheel_with_the_rolling_in_its_angular_velocity() -> None:
+    # A coin upright on a plane: x, y are places of its own, and so is the angle rolled. The heading keeps its rate, and so does the speed.
+    h, u, w = me.dynamicsymbols("h u w")
+    m, r = sp.symbols("m r", positive=True)
+    N = me.ReferenceFrame("N")
+    A = N.orientnew("A", "axis", [h, N.z])
+    W = me.ReferenceFrame("W")
+    A.set_ang_vel(N, w * N.z)
+    W.set_ang_vel(N, w * A.z + u / r * A.y)
+    C = me.Point("C")
+    C.set_vel(N, u * A.x)
+    coin = me.RigidBody("coin", C, W, m, (me.inertia(A, m * r**2 / 4, m * r**2 / 2, m * r**2 / 4), C))
+    method = me.KanesMethod(N, [h], [w, u], kd_eqs=[h.diff() - w])
+    method.kanes_equations([coin], [(W, sp.Symbol("c") * A.y)])
+    system = System.from_sympy(method, derived=True)
+    assert {"coin_x", "coin_y"} < set(system.coordinates)
+    assert system.study(claims="equations.stated")["equations.stated#sympy"].verdict == "proved"
+    f = system.with_values(m=2, r=0.5, c=0.3).compile()
+    state = dict.fromkeys(f.state, 0.0) | {"h'": 1.5}
+    names = list(state)
+    # 3/2 m r² times the angular acceleration is the torque; the speed is r times the rate.
+    found = dict(zip(names, f.rhs(0.0, np.array(list(state.values())))[len(names) // 2 :]))
+    speed = next(own for own in names if own.startswith("u_path"))
+    np.testing.assert_allclose(found[speed], 0.3 / (1.5 * 2 * 0.5), rtol=1e-12)

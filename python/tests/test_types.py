@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,18 +27,39 @@ def test_mypy_finds_nothing() -> None:
     assert done.returncode == 0, done.stdout
 
 
+def arguments(node: ast.FunctionDef) -> list[tuple[str, bool]]:
+    """Names of the arguments of a stub, and whether they may be left out."""
+    own = node.args.posonlyargs + node.args.args
+    required = len(own) - len(node.args.defaults)
+    return [(argument.arg, number >= required) for number, argument in enumerate(own) if argument.arg != "self"]
+
+
+def taken(function: Any) -> list[tuple[str, bool]]:
+    """The same of a function of the native part."""
+    own = inspect.signature(function).parameters.values()
+    return [(argument.name, argument.default is not argument.empty) for argument in own if argument.name not in ("self", "type")]
+
+
 def test_stubs_have_what_the_native_part_has() -> None:
-    stub = (Path(chetaev.__file__).parent / "chetaev_native.pyi").read_text()
-    for name in ("Model", "Outcome", "Sweep", "Linear", "Compiled", "Function"):
-        _, _, block = stub.partition(f"class {name}:")
-        block = block.partition("\n@final")[0].partition("\ndef ")[0]
-        own = [member for member in vars(getattr(chetaev_native, name)) if not member.startswith("__")]
-        assert own
-        for member in own:
-            assert f"def {member}(" in block, f"{name}.{member} has no stub"
-    functions = [own for own, value in vars(chetaev_native).items() if inspect.isbuiltin(value)]
-    for name in functions:
-        assert f"def {name}(" in stub
+    tree = ast.parse((Path(chetaev.__file__).parent / "chetaev_native.pyi").read_text())
+    classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
+    native = {name: own for name, own in vars(chetaev_native).items() if inspect.isclass(own)}
+    assert set(classes) == set(native)
+    for name, node in classes.items():
+        stubs = {own.name: own for own in node.body if isinstance(own, ast.FunctionDef)}
+        members = {key: own for key, own in vars(native[name]).items() if not key.startswith("__") or key == "__call__"}
+        assert set(stubs) == set(members), name
+        for key, own in members.items():
+            if callable(own) and key != "__call__":
+                assert arguments(stubs[key]) == taken(own), f"{name}.{key}"
+            # Nothing is left open: every argument and every value has a type.
+            assert stubs[key].returns is not None
+            assert all(argument.annotation is not None for argument in stubs[key].args.args if argument.arg != "self")
+    stubs = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    functions = {name: own for name, own in vars(chetaev_native).items() if inspect.isbuiltin(own)}
+    assert set(stubs) == set(functions)
+    for key, own in functions.items():
+        assert arguments(stubs[key]) == taken(own), key
 
 
 def test_everything_public_is_documented() -> None:

@@ -18,8 +18,13 @@ use std::collections::BTreeMap;
 pub fn constraint_set(cx: &Context<'_>) -> Manifold {
     let (system, g) = (cx.system, &cx.system.graph);
     let mut set = manifold(cx);
-    let is_finite = |l: &&usize| system.constraints[**l].kind == ConstraintKind::Holonomic;
-    if cx.terms.constraint_index.iter().filter(is_finite).count() > 1 {
+    let stated = cx.terms.constraint_index.iter().enumerate();
+    let is_finite =
+        |(_, l): &(usize, &usize)| system.constraints[**l].kind == ConstraintKind::Holonomic;
+    let finite: Vec<usize> = stated.filter(is_finite).map(|(row, _)| row).collect();
+    // One that is left out as its derivative follows from other constraints restricts the positions all the same.
+    let is_left_out = |row: &usize| !cx.selection.rows.contains(row);
+    if finite.len() > 1 || finite.iter().any(is_left_out) {
         let positions = cx.shared(|_| positions::of(system, cx.terms, cx.selection));
         return positions.joined(&set);
     }

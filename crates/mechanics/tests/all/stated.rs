@@ -377,3 +377,26 @@ fn what_a_twin_needs_is_said() {
     let broken = problem(&text, &CARTESIAN.replace("V = \"m g y\"", "V = \"m g z\""));
     assert!(broken.contains("cartesian.toml"), "{broken}");
 }
+
+/// Whoever derives by hand states a circle and its derivative. The positions are still those of the circle, where the speed keeps the point.
+#[test]
+fn a_position_whose_derivative_is_stated_too_still_holds() {
+    let stated = [
+        "p = \"x^2 + y^2 = 1\"",
+        "v = \"x x' + y y' = 0\"\np = \"x^2 + y^2 = 1\"",
+        "p = \"x^2 + y^2 = 1\"\nv = \"x x' + y y' = 0\"",
+    ];
+    for constraints in stated {
+        let text = format!(
+            "name = \"circle\"\ncoordinates = [\"x\", \"y\"]\nparameters = {{ m = {{}} }}\nassumptions = [\"m > 0\"]\n\
+             lagrangian = {{ T = \"1/2 m (x'^2 + y'^2)\" }}\n[constraints]\n{constraints}\n[equations]\n\
+             right = [\"x'' = -x (x'^2 + y'^2)\", \"y'' = -y (x'^2 + y'^2)\"]\n\
+             wrong = [\"x'' = -2 x (x'^2 + y'^2)\", \"y'' = -2 y (x'^2 + y'^2)\"]\n"
+        );
+        proved(&verdict(&text, "equations.stated#right"));
+        refuted(
+            &verdict(&text, "equations.stated#wrong"),
+            &["the motion does not satisfy"],
+        );
+    }
+}
