@@ -12,7 +12,9 @@ class Functional:
     """One functional; `special` are values put in for parameters, fields and functions, keyed as they are written."""
 
     def __init__(self, data, special=None, meanings=None):
-        domain, sizes = data["domain"], data.get("sizes", {})
+        given = dict(special or {})
+        sizes = {name: int(given.pop(name, value)) for name, value in data.get("sizes", {}).items()}
+        domain = data["domain"]
         numbered = isinstance(domain["coordinates"], str)
         d = sizes["d"] if numbered else len(domain["coordinates"])
         names = [f"{domain['coordinates'][:-2]}_{i + 1}" for i in range(d)] if numbered else list(domain["coordinates"])
@@ -23,7 +25,6 @@ class Functional:
         self.name, self.data, self.d = data["name"], data, d
         for name, value in sizes.items():
             scope.tensors[name] = {(): num(value)}
-        given = dict(special or {})
         for name, own in data.get("parameters", {}).items():
             scope.declare(name, own.get("kind", "scalar"), constant=True)
         for section in ("data", "fields"):

@@ -5,7 +5,7 @@ use crate::space::Space;
 use crate::tensors::{Scope, Shape};
 use chetaev_model::model::ModelText;
 use chetaev_model::Place;
-use chetaev_symbolic::{Expr, Rational};
+use chetaev_symbolic::{Expr, Rational, Symbol};
 use std::rc::Rc;
 
 /// A field, or data that depend on place.
@@ -96,6 +96,21 @@ pub struct Equation {
     pub multiplier: Option<(String, Vec<Expr>)>,
     /// Where it is written.
     pub place: Place,
+}
+
+impl Equation {
+    /// As written, with the piece on which it holds.
+    pub fn statement(&self) -> String {
+        statement(&self.written, self.on.as_deref())
+    }
+}
+
+/// `u_k = ubar_k on S_u`.
+pub(crate) fn statement(written: &str, on: Option<&str>) -> String {
+    match on {
+        Some(on) => format!("{written} on {on}"),
+        None => written.to_owned(),
+    }
 }
 
 /// A parameter.
@@ -213,6 +228,20 @@ impl Functional {
         self.equations.iter().filter(move |e| e.role == role)
     }
 
+    /// Puts values in for symbols in all densities, equations and multipliers.
+    pub fn put(&mut self, value: &dyn Fn(Symbol) -> Option<Expr>) {
+        let space = self.space.clone();
+        let equations = self.equations.iter_mut().flat_map(|own| {
+            let multiplier = own.multiplier.iter_mut().flat_map(|own| &mut own.1);
+            own.residuals.iter_mut().chain(multiplier)
+        });
+        let pieces = self.pieces.iter_mut().map(|piece| &mut piece.density);
+        let all = std::iter::once(&mut self.density)
+            .chain(pieces)
+            .chain(equations);
+        all.for_each(|e| *e = space.replace(*e, value));
+    }
+
     /// Known values of parameters: symbols with expressions.
     pub fn values(&self) -> Vec<(Expr, Expr)> {
         let g = &self.space.graph;
@@ -246,6 +275,8 @@ pub enum Relation {
     Degeneration {
         /// What is special.
         name: String,
+        /// The functional itself, with special sizes where there are some.
+        own: Option<Box<Functional>>,
         /// The other.
         other: Functional,
         /// Values put in.
@@ -278,6 +309,8 @@ pub struct Special {
 /// What a special value replaces.
 #[derive(Clone, Debug)]
 pub enum SpecialKind {
+    /// A size, which is put in where the functional is read.
+    Size,
     /// Symbols by expressions.
     Symbols(Vec<(Expr, Expr)>),
     /// A constitutive function by an expression in its place-holders.
@@ -304,6 +337,8 @@ pub struct Relative {
     pub imposed: Vec<String>,
     /// Labels of what it yields.
     pub yields: Vec<String>,
+    /// The equations that it states: label, and as it is written with the piece on which it holds.
+    pub equations: Vec<(String, String)>,
 }
 
 /// Fields that are stated to make the functional stationary.

@@ -1,6 +1,6 @@
 //! Ritz's method: the stationary polynomial of a quadratic functional, with exact integrals (W. Ritz 1909).
 
-use crate::functional::Functional;
+use crate::functional::{Functional, Piece, Role, Side};
 use crate::linear::System;
 use crate::polynomial::{Domain, Polynomial};
 use crate::ritz_base::Base;
@@ -26,25 +26,39 @@ pub struct Approximation {
 }
 
 /// Why there is no approximation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RitzError {
     /// The box has no rational ends.
     Box,
     /// The functional is not quadratic with polynomial coefficients.
     NotQuadratic,
+    /// Data without values, or a field of the boundary.
+    Unknown(String),
+    /// A field is given by a condition that no polynomial of the base satisfies.
+    Given(String),
     /// The equations have no unique solution.
     Singular,
 }
 
 impl std::fmt::Display for RitzError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            RitzError::Box => "Ritz's method needs a box, with numbers for its ends",
-            RitzError::NotQuadratic => {
-                "Ritz's method with exact integrals needs a quadratic functional whose coefficients are polynomials with numbers"
+        match self {
+            RitzError::Box => f.write_str("Ritz's method needs a box, with numbers for its ends"),
+            RitzError::NotQuadratic => f.write_str(
+                "Ritz's method with exact integrals needs a quadratic functional whose coefficients are polynomials with numbers",
+            ),
+            RitzError::Unknown(name) => write!(
+                f,
+                "`{name}` has no value: [ritz] values states those of data, and fields of the boundary have none"
+            ),
+            RitzError::Given(label) => write!(
+                f,
+                "({label}) is imposed, and the polynomials of Ritz's method do not satisfy it: they vanish where a field is given"
+            ),
+            RitzError::Singular => {
+                f.write_str("the linear equations of Ritz's method have no unique solution")
             }
-            RitzError::Singular => "the linear equations of Ritz's method have no unique solution",
-        })
+        }
     }
 }
 
@@ -73,6 +87,9 @@ pub fn approximation(
     let is_flat = |(_, lower, upper): &(usize, Rational, Rational)| lower == upper;
     if domain.intervals.len() != space.coordinates.len() || domain.intervals.iter().any(is_flat) {
         return Err(RitzError::Box);
+    }
+    if let Some(label) = unsatisfied(functional, asked) {
+        return Err(RitzError::Given(label));
     }
     let base = Base::new(functional, &domain, degree as usize);
     let mut parts = Vec::new();
@@ -121,10 +138,47 @@ pub fn with_values(functional: &Functional, asked: &Asked, e: Expr) -> Expr {
     })
 }
 
+/// The components that are varied.
+fn components(functional: &Functional) -> Vec<usize> {
+    let fields = functional.interior();
+    fields.flat_map(|field| field.components.clone()).collect()
+}
+
+/// What is imposed and does not hold for all polynomials of the base: any but that a field, or its slope across a face, vanishes there.
+fn unsatisfied(functional: &Functional, asked: &Asked) -> Option<String> {
+    let space = &*functional.space;
+    let mut imposed = functional.with_role(Role::Imposed);
+    let own = imposed.find(|equation| {
+        let piece = equation.on.as_deref().and_then(|on| functional.piece(on));
+        let zero = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            is_given(piece?, &jet).then(|| space.graph.zero())
+        };
+        let mut residuals = equation.residuals.iter();
+        residuals
+            .any(|&e| !space.vanish(&[space.replace(with_values(functional, asked, e), &zero)]))
+    })?;
+    Some(own.label.clone())
+}
+
+/// Whether a derivative is zero on a face because the field, or its slope across the face, is given there.
+fn is_given(piece: &Piece, jet: &Jet) -> bool {
+    let Side::Flat { axis, .. } = piece.side else {
+        return false;
+    };
+    let across = jet.by.iter().filter(|by| **by == axis).count();
+    across < 2 && piece.fixed.contains(&(jet.component, across == 1))
+}
+
 fn quadratic(functional: &Functional, e: Expr, domain: Domain) -> Result<Quadratic, RitzError> {
     let space = &*functional.space;
     let g = &space.graph;
     let jets: Vec<Jet> = space.jets_in(&[e]).into_iter().collect();
+    let varied = components(functional);
+    if let Some(jet) = jets.iter().find(|jet| !varied.contains(&jet.component)) {
+        let name = space.component_at(jet.component).name;
+        return Err(RitzError::Unknown(name));
+    }
     let zero = |e: Expr| space.replace(e, &|symbol| space.as_jet(symbol).map(|_| g.zero()));
     let polynomial = |e: Expr| Polynomial::of(space, e).ok_or(RitzError::NotQuadratic);
     let mut own = Quadratic {

@@ -24,8 +24,8 @@ pub enum VariationError {
     Piece {
         /// The piece.
         piece: String,
-        /// The field.
-        component: String,
+        /// The derivative of the field that is varied, as it is written.
+        derivative: String,
     },
 }
 
@@ -36,9 +36,10 @@ impl std::fmt::Display for VariationError {
                 f,
                 "the density contains a derivative of `{component}` of order {order}; up to order 2 the conditions on the boundary are derived"
             ),
-            VariationError::Piece { piece, component } => write!(
+            VariationError::Piece { piece, derivative } => write!(
                 f,
-                "on `{piece}` the variation of `{component}` has derivatives of order 2; densities with second derivatives need the faces of a box: state [domain] intervals"
+                "the density on `{piece}` contains `{derivative}`; conditions are derived for densities there with first derivatives by place, and \
+                 any by the time"
             ),
         }
     }
@@ -389,6 +390,32 @@ fn boundary_form(functional: &Functional, piece: &Piece, density: Expr, flux: &[
     form
 }
 
+/// A term of the variation on a piece without derivatives by the time: the time runs along the piece, and variations vanish at its ends.
+fn off_the_time(space: &Space, jet: &Jet, value: Expr) -> (Multi, Expr) {
+    let g = &space.graph;
+    let is_time = |&&axis: &&usize| space.coordinates[axis].is_time;
+    let times: Multi = jet.by.iter().filter(is_time).copied().collect();
+    let places: Multi = jet
+        .by
+        .iter()
+        .filter(|axis| !is_time(axis))
+        .copied()
+        .collect();
+    let moved = space.totals(value, &times);
+    match times.len() % 2 {
+        0 => (places, moved),
+        _ => (places, g.neg(moved)),
+    }
+}
+
+/// A derivative that a piece has no conditions for.
+fn too_high(space: &Space, piece: &Piece, jet: &Jet) -> VariationError {
+    VariationError::Piece {
+        piece: piece.name.clone(),
+        derivative: space.graph.text(space.jet(jet.component, &jet.by)),
+    }
+}
+
 /// Conditions on a curved piece.
 fn curved(functional: &Functional, piece: &Piece, form: &Form) -> Result<OnPiece, VariationError> {
     let space = &*functional.space;
@@ -398,25 +425,16 @@ fn curved(functional: &Functional, piece: &Piece, form: &Form) -> Result<OnPiece
     let mut values: BTreeMap<usize, Vec<Expr>> = BTreeMap::new();
     let mut slopes: BTreeMap<usize, Vec<Expr>> = BTreeMap::new();
     for (jet, &value) in form {
-        match jet.by[..] {
+        let (by, value) = off_the_time(space, jet, value);
+        match by[..] {
             [] => values.entry(jet.component).or_default().push(value),
-            [i] if i < d => {
+            [i] => {
                 let own = slopes
                     .entry(jet.component)
                     .or_insert_with(|| vec![g.zero(); d]);
-                own[i] = value;
+                own[i] = g.add(&[own[i], value]);
             }
-            // The time runs along the piece, and variations vanish at its ends.
-            [i] => {
-                let moved = g.neg(space.total(value, i));
-                values.entry(jet.component).or_default().push(moved);
-            }
-            _ => {
-                return Err(VariationError::Piece {
-                    piece: piece.name.clone(),
-                    component: space.component_at(jet.component).name,
-                })
-            }
+            _ => return Err(too_high(space, piece, jet)),
         }
     }
     let mut conditions = Vec::new();
@@ -506,22 +524,16 @@ fn flat(
     let mut coefficients: BTreeMap<(usize, usize), Expr> = BTreeMap::new();
     let mut corners = Vec::new();
     for (jet, &value) in form {
-        let along: Vec<usize> = jet.by.iter().copied().filter(|&i| i != axis).collect();
-        let across = jet.by.len() - along.len();
-        let too_many = across > 1 || along.len() > 1 || (across > 0 && !along.is_empty());
-        if too_many {
-            return Err(VariationError::Piece {
-                piece: piece.name.clone(),
-                component: space.component_at(jet.component).name,
-            });
-        }
-        let mut own = value;
-        if let [i] = along[..] {
-            own = g.neg(space.total(value, i));
-            if !space.coordinates[i].is_time {
+        let (by, value) = off_the_time(space, jet, value);
+        let (own, across) = match by[..] {
+            [] => (value, 0),
+            [i] if i == axis => (value, 1),
+            [i] => {
                 corners.extend(ends(functional, piece, jet.component, i, value));
+                (g.neg(space.total(value, i)), 0)
             }
-        }
+            _ => return Err(too_high(space, piece, jet)),
+        };
         let entry = coefficients
             .entry((jet.component, across))
             .or_insert_with(|| g.zero());

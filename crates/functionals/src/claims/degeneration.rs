@@ -19,7 +19,7 @@ impl Claim for Degeneration {
     }
 
     fn explanation(&self) -> &'static str {
-        "The values that a section [degenerations.NAME] states are put in for parameters, fields and constitutive functions; the \
+        "The values that a section [degenerations.NAME] states are put in for parameters, sizes, fields and constitutive functions; the \
          densities of the interior and of every piece of the boundary must then be those of the functional that it names, for all fields \
          that this one admits. Where they agree only because of what it imposes, the verdict names it. Field equations that \
          follow from a functional are not used: by these it would be equal to many others. Where the densities differ the claim is \
@@ -38,25 +38,29 @@ impl Claim for Degeneration {
         let found = cx.problem.relations.iter().find_map(|r| match r {
             Relation::Degeneration {
                 name,
+                own,
                 other,
                 values,
-            } if Some(name.as_str()) == subject => Some((other, values)),
+            } if Some(name.as_str()) == subject => {
+                let own = own.as_deref().unwrap_or_else(|| cx.functional());
+                Some((own, other, values))
+            }
             _ => None,
         });
         match found {
-            Some((other, values)) => {
-                if let Some(stated) = other_value(cx.functional(), values) {
+            Some((functional, other, values)) => {
+                if let Some(stated) = other_value(functional, values) {
                     return Verdict::not_applicable("parameters", stated).into();
                 }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();
                 let how = format!("with {}", told.join(", "));
                 let comparison = Comparison {
-                    functional: cx.functional(),
+                    functional,
                     other,
                     how: &how,
                     is_descent: false,
                 };
-                comparison.decided(&|e| put_in(cx.functional(), values, e))
+                comparison.decided(&|e| put_in(functional, values, e))
             }
             None => Verdict::undecided("there is no such degeneration").into(),
         }
@@ -69,7 +73,7 @@ pub(super) fn other_value(functional: &Functional, values: &[Special]) -> Option
     let stated = functional.values();
     let pairs = values.iter().flat_map(|special| match &special.what {
         SpecialKind::Symbols(pairs) => pairs.as_slice(),
-        SpecialKind::Function { .. } => &[],
+        SpecialKind::Size | SpecialKind::Function { .. } => &[],
     });
     let mut other = pairs.filter_map(|(symbol, special)| {
         let (_, value) = stated.iter().find(|(own, _)| own == symbol)?;
@@ -83,6 +87,7 @@ pub(super) fn other_value(functional: &Functional, values: &[Special]) -> Option
 pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Expr {
     let space = &*functional.space;
     values.iter().fold(e, |e, special| match &special.what {
+        SpecialKind::Size => e,
         SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
             let own = space.graph.symbol_expr(symbol);
             pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r)

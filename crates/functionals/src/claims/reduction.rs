@@ -76,21 +76,12 @@ fn can_leave(functional: &Functional, component: usize, e: Expr) -> bool {
 
 fn put_in(functional: &mut Functional, component: usize, value: Expr) {
     let space = functional.space.clone();
-    let put = |e: Expr| {
-        space.replace(e, &|symbol| {
-            let jet = space.as_jet(symbol)?;
-            (jet.component == component).then(|| space.totals(value, &jet.by))
-        })
-    };
-    functional.density = put(functional.density);
+    functional.put(&|symbol| {
+        let jet = space.as_jet(symbol)?;
+        (jet.component == component).then(|| space.totals(value, &jet.by))
+    });
     for piece in &mut functional.pieces {
-        piece.density = put(piece.density);
         piece.fixed.retain(|(own, _)| *own != component);
-    }
-    for equation in &mut functional.equations {
-        for e in &mut equation.residuals {
-            *e = put(*e);
-        }
     }
     for field in &mut functional.fields {
         field.components.retain(|own| *own != component);

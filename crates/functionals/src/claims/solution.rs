@@ -147,7 +147,7 @@ impl Inserted<'_> {
         let own = self.solution.values.iter();
         let own = own.filter_map(|special| match &special.what {
             SpecialKind::Symbols(pairs) => Some(pairs.clone()),
-            SpecialKind::Function { .. } => None,
+            SpecialKind::Size | SpecialKind::Function { .. } => None,
         });
         let stated: Vec<(Expr, Expr)> = own.flatten().collect();
         let mut pairs = stated.clone();

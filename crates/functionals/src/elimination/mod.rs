@@ -67,7 +67,7 @@ pub struct Solved<'s> {
     /// Functions undone by their conjugates.
     pub inverted: BTreeSet<String>,
     /// Expressions in parameters and data that were divided by.
-    pub nonzero: BTreeSet<String>,
+    pub nonzero: BTreeSet<Expr>,
 }
 
 /// A jet with its value.

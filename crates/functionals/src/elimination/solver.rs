@@ -505,7 +505,7 @@ impl Solved<'_> {
                 let is_open = g.as_number(factor).is_none()
                     && !known_sign(g, factor, &assumptions).is_nonzero();
                 if is_open {
-                    self.nonzero.insert(g.text(factor));
+                    self.nonzero.insert(factor);
                 }
             }
         }

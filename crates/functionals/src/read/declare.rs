@@ -309,9 +309,10 @@ impl Reader<'_> {
             if !self.is_new(scope, key, shape) {
                 continue;
             }
-            constants(scope, &key.content, shape);
             let value = self.override_of(&key.content).or(value);
+            // Before the name is declared: a parameter is not stated by itself.
             let value = value.and_then(|text| self.scalar(scope, &text));
+            constants(scope, &key.content, shape);
             if let (Some(value), Shape::Scalar, true) = (value, shape, self.puts_in_values) {
                 place_holders(scope, &key.content, shape, &[value]);
             }

@@ -1,7 +1,7 @@
 //! The family that a functional belongs to: what the files of the others state, without studying them.
 
 use super::Reader;
-use crate::functional::Relative;
+use crate::functional::{statement, Relative};
 use chetaev_model::raw::{Raw, Table};
 use chetaev_model::{joined, tables, Diagnostic, Sources, Text};
 
@@ -42,6 +42,7 @@ impl Reader<'_> {
             fields: fields(&own),
             imposed: self.labels(&own, "imposed"),
             yields: self.labels(&own, "yields"),
+            equations: equations(&own),
         })
     }
 
@@ -62,6 +63,22 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+fn equations(table: &Table) -> Vec<(String, String)> {
+    let section = table.get("equations").and_then(Raw::table);
+    let entries = section.iter().flat_map(|own| &own.entries);
+    let stated = entries.filter_map(|(key, raw)| {
+        let own = raw.table();
+        let text = |key: &str| own?.get(key)?.expression().map(|t| t.content.clone());
+        let written = match own {
+            Some(_) => text("equation")?,
+            None => raw.expression()?.content.clone(),
+        };
+        let statement = statement(&written, text("on").as_deref());
+        Some((key.content.clone(), statement))
+    });
+    stated.collect()
 }
 
 fn fields(table: &Table) -> Vec<String> {

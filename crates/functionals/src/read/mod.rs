@@ -295,7 +295,20 @@ impl Reader<'_> {
             return None;
         }
         let value = scope.value(&node, &BTreeMap::new());
-        Some((node, value))
+        self.is_real(scope, &[value], text).then_some((node, value))
+    }
+
+    /// Whether no part of expressions is a number that does not exist, such as `log(0)` or `sqrt(-1)`; else it is said.
+    fn is_real(&mut self, scope: &Scope, es: &[Expr], text: &Text) -> bool {
+        let g = &scope.space.graph;
+        let is_number = |e: &Expr| scope.space.symbols_in(&[*e]).is_empty();
+        let mut numbers = g.reachable(es).into_iter().filter(is_number);
+        let own = numbers.find(|&e| crate::signs::enclosure(&scope.space, e).is_none());
+        if let Some(own) = own {
+            let message = format!("`{}` is no real number", g.text(own));
+            self.push(Diagnostic::error("bad-value", text.place, message));
+        }
+        own.is_none()
     }
 
     /// The components of left minus right with their free letters.
@@ -329,8 +342,10 @@ impl Reader<'_> {
             Some(right) => scope.components(&right, &letters),
             None => vec![g.zero(); left.len()],
         };
-        let differences = left.iter().zip(right).map(|(&l, r)| g.sub(l, r)).collect();
-        Some((differences, letters))
+        let differences = left.iter().zip(right).map(|(&l, r)| g.sub(l, r));
+        let differences: Vec<Expr> = differences.collect();
+        self.is_real(scope, &differences, text)
+            .then_some((differences, letters))
     }
 
     fn unused_overrides(&mut self) {

@@ -21,7 +21,7 @@ impl Reader<'_> {
         };
         for (key, raw) in &section.entries {
             match raw.table() {
-                Some(own) => found.extend(self.degeneration(key, own, functional)),
+                Some(own) => found.extend(self.degeneration(key, own, (table, functional))),
                 None => self.wrong_kind(raw, &key.content, "a table"),
             }
         }
@@ -145,28 +145,59 @@ impl Reader<'_> {
         &mut self,
         key: &Text,
         table: &Table,
-        functional: &Functional,
+        (model, functional): (&Table, &Functional),
     ) -> Option<Relation> {
         self.known_keys(table, &["becomes", "at"], "a degeneration");
         let becomes = self.required(table, "becomes", "a degeneration")?;
         let other = self.other(&becomes, functional)?;
+        let at = table.get("at").and_then(Raw::table);
+        let entries = at.map_or(&[][..], |own| &own.entries);
+        let is_size = |(name, _): &&(Text, Raw)| functional.scope.sizes.contains_key(&name.content);
+        let (sizes, rest): (Vec<_>, Vec<_>) = entries.iter().partition(is_size);
         let mut values = Vec::new();
-        for (name, raw) in table
-            .get("at")
-            .and_then(Raw::table)
-            .iter()
-            .flat_map(|t| &t.entries)
-        {
+        let mut special = Vec::new();
+        for (name, raw) in sizes {
+            let text = self.text_of(raw, &name.content)?;
+            values.push(Special {
+                written: format!("{} = {}", name.content, text.content),
+                what: SpecialKind::Size,
+            });
+            special.push((name.clone(), text));
+        }
+        let own = match special.is_empty() {
+            true => None,
+            false => Some(Box::new(self.with_sizes(special, (model, functional))?)),
+        };
+        let of = own.as_deref().unwrap_or(functional);
+        for (name, raw) in rest {
             // On the right the names mean what they mean for the other functional.
-            let mut scope = functional.scope.clone();
+            let mut scope = of.scope.clone();
             scope.tensors.extend(other.scope.tensors.clone());
-            values.extend(self.special(name, raw, functional, scope));
+            values.extend(self.special(name, raw, of, scope));
         }
         Some(Relation::Degeneration {
             name: key.content.clone(),
+            own,
             other,
             values,
         })
+    }
+
+    /// The functional with other sizes, on the same symbols.
+    fn with_sizes(
+        &mut self,
+        special: Vec<(Text, Text)>,
+        (model, functional): (&Table, &Functional),
+    ) -> Option<Functional> {
+        let is_asked =
+            |(own, _): &(Text, Text)| special.iter().any(|(name, _)| name.content == own.content);
+        let before = self.overrides.clone();
+        self.overrides.retain(|own| !is_asked(own));
+        self.overrides.extend(special.iter().cloned());
+        let place = special.first().map_or(Place::default(), |own| own.0.place);
+        let found = self.functional(model, place, Some(&functional.space));
+        self.overrides = before;
+        found
     }
 
     /// `beta = "0"`, `beta_ijkl = "…"`, `"A(X)" = "…"`; the right side may use the names of `scope`.

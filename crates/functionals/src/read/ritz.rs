@@ -80,7 +80,7 @@ impl Reader<'_> {
             let axis = scope.coordinate(&variable.content);
             let value = self.text_of(raw, &variable.content).and_then(|text| {
                 told.push(format!("{} = {}", variable.content, text.content));
-                self.number(functional, asked, &text)
+                self.value_at(functional, asked, &text)
             });
             match (axis, value) {
                 (Some(axis), Some(value)) => at[axis] = value,
@@ -91,8 +91,13 @@ impl Reader<'_> {
                 }
             }
         }
+        if !is_inside(functional, asked, &at) {
+            let message = "the point lies outside of the box of [domain] intervals";
+            self.push(Diagnostic::error("bad-value", key.place, message));
+            return None;
+        }
         let text = self.required(table, "value", "a point")?;
-        let value = self.number(functional, asked, &text)?;
+        let value = self.value_at(functional, asked, &text)?;
         let exact = self.optional(table, "exact");
         Some(Point {
             written: format!("{}: {} at {}", key.content, name.content, told.join(", ")),
@@ -103,7 +108,12 @@ impl Reader<'_> {
         })
     }
 
-    fn number(&mut self, functional: &Functional, asked: &Asked, text: &Text) -> Option<Rational> {
+    fn value_at(
+        &mut self,
+        functional: &Functional,
+        asked: &Asked,
+        text: &Text,
+    ) -> Option<Rational> {
         let e = self.scalar(&functional.scope, text)?;
         let e = crate::ritz::with_values(functional, asked, e);
         let found = functional.space.graph.as_number(e).cloned();
@@ -132,4 +142,21 @@ impl Reader<'_> {
         }
         found
     }
+}
+
+/// Whether a point lies in the box; true where the ends of the box are no numbers.
+fn is_inside(functional: &Functional, asked: &Asked, at: &[Rational]) -> bool {
+    let space = &*functional.space;
+    let end = |e: Expr| {
+        let value = crate::ritz::with_values(functional, asked, e);
+        space.graph.as_number(value).cloned()
+    };
+    functional.intervals.iter().all(|interval| {
+        let own = at.get(interval.axis);
+        let ends = (end(interval.lower), end(interval.upper));
+        match (own, ends) {
+            (Some(own), (Some(lower), Some(upper))) => (lower..=upper).contains(own),
+            _ => true,
+        }
+    })
 }

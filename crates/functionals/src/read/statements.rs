@@ -2,7 +2,7 @@
 
 use super::living::Living;
 use super::Reader;
-use crate::functional::{Definition, Equation, Functional, Interval, Piece, Role, Side};
+use crate::functional::{Definition, Equation, Field, Functional, Interval, Piece, Role, Side};
 use crate::notation::{free_letters, parse, parse_sides};
 use crate::space::pairs;
 use crate::tensors::{tuples, Scope, Tensor};
@@ -56,6 +56,7 @@ impl Reader<'_> {
         let pieces = self.pieces(table, &scope, &intervals);
         let living = Living::of(&scope, &data, &fields);
         self.pieces_exist(table, &living, &pieces);
+        self.fixed_are_fields(table, &data, &pieces);
         if let Some((_, density)) = density {
             self.lives_there(&living, &[density], None, &text);
         }
@@ -338,6 +339,30 @@ impl Reader<'_> {
         found
     }
 
+    /// What is given on a piece is a field: data are given everywhere.
+    fn fixed_are_fields(&mut self, table: &Table, data: &[Field], pieces: &[Piece]) {
+        let section = table.get("boundary").and_then(Raw::table);
+        for piece in pieces {
+            let is_fixed = |own: &&Field| {
+                let mut all = piece.fixed.iter();
+                all.any(|(component, _)| own.components.contains(component))
+            };
+            let Some(own) = data.iter().find(is_fixed) else {
+                continue;
+            };
+            let entry = section.and_then(|own| own.get(&piece.name)?.table()?.get("fixed"));
+            let place = entry.map_or(Place::default(), |raw| raw.place);
+            let message = format!(
+                "`{}` is data, which are given everywhere; `fixed` names fields that are not varied on {}",
+                own.name, piece.name
+            );
+            self.push(
+                Diagnostic::error("bad-fixed", place, message)
+                    .hint("u for the values of a field, \"u,n\" for its normal derivative"),
+            );
+        }
+    }
+
     /// Every declared piece and every face of the box must be spoken of: what is forgotten would be free.
     fn missing_pieces(
         &mut self,
@@ -399,6 +424,7 @@ impl Reader<'_> {
         let imposed = table.get("imposed").map(|raw| self.texts(raw, "imposed"));
         let yields = table.get("yields").map(|raw| self.texts(raw, "yields"));
         let (imposed, yields) = (imposed.unwrap_or_default(), yields.unwrap_or_default());
+        self.said_once(&imposed, &yields);
         let section = self.section(table, "equations");
         let entries = section.map_or(&[][..], |own| &own.entries);
         for (key, raw) in entries {
@@ -423,6 +449,34 @@ impl Reader<'_> {
             }
         }
         found
+    }
+
+    /// An equation is imposed, or claimed to follow, and is named once.
+    fn said_once(&mut self, imposed: &[Text], yields: &[Text]) {
+        let all = imposed
+            .iter()
+            .map(|text| (text, "imposed"))
+            .chain(yields.iter().map(|text| (text, "yields")));
+        let all: Vec<(&Text, &str)> = all.collect();
+        for (at, (text, list)) in all.iter().enumerate() {
+            let same = |(other, _): &&(&Text, &str)| other.content == text.content;
+            let Some((_, before)) = all[..at].iter().find(same) else {
+                continue;
+            };
+            let label = &text.content;
+            let (message, hint) = if before == list {
+                (
+                    format!("`{label}` stands twice under `{list}`"),
+                    "name it once",
+                )
+            } else {
+                (
+                    format!("`{label}` stands under `imposed` and under `yields`"),
+                    "what is imposed holds beforehand, and is not what follows: take it out of one of the two",
+                )
+            };
+            self.push(Diagnostic::error("declared-twice", text.place, message).hint(hint));
+        }
     }
 
     fn equation(

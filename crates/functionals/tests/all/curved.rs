@@ -154,3 +154,22 @@ fn conditions_on_a_free_curved_edge_that_lead_back_to_each_other_are_refuted() {
         assert_eq!(word, "refuted", "{detail}");
     }
 }
+
+#[test]
+fn what_is_false_where_the_edge_is_straight_is_false() {
+    // Nothing says that w vanishes along the edge, only that it is given there: w,ii has a part along it.
+    let text = model(
+        "1/2 w,ij w,ij",
+        "w,iijj = 0",
+        "w,ii - curvature_ii n_j w,j = 0",
+    )
+    .replace("imposed = [\"zero\"]\n", "");
+    let (word, detail) = verdict(&text);
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(
+        detail.contains("where S lies in a plane x = constant"),
+        "{detail}"
+    );
+    let (word, detail) = verdict(&text.replace("w,ii - curvature_ii n_j w,j", "n_i n_j w,ij"));
+    assert_eq!(word, "proved", "{detail}");
+}

@@ -131,3 +131,42 @@ fn a_level_with_another_boundary_does_not_follow_from_the_one_above() {
         "{detail}"
     );
 }
+
+#[test]
+fn every_row_becomes_that_of_the_linear_theory() {
+    let id = "functional.degeneration#small-displacements";
+    for row in crate::table::ROWS {
+        let (word, detail, _) = verdict(row, id, &[]);
+        assert_eq!(word, "proved", "{row}: {detail}");
+        assert!(detail.contains("with nonlinear = 0"), "{row}: {detail}");
+    }
+    // Half of the displacements do not vanish with their products, and with them nothing of it does.
+    let wrong = [
+        (
+            "p4p",
+            "at = { nonlinear = \"0\" }",
+            "at = { nonlinear = \"1\" }",
+        ),
+        ("p1c", "L_k u_k\"", "L_k u_k + u_k,i u_k,j s_ij\""),
+        (
+            "p2pb",
+            "S_s = \"-Pbar_k u_k\"",
+            "S_s = \"-Pbar_k u_k + nonlinear P_k u_k + P_k u_k\"",
+        ),
+    ];
+    for (row, from, to) in wrong {
+        let (word, detail, captions) = verdict(row, id, &[(from, to)]);
+        assert_eq!(word, "refuted", "{row}: {detail}");
+        let is_shown = captions.iter().any(|c| c.starts_with("the difference "));
+        assert!(is_shown, "{captions:?}");
+    }
+}
+
+#[test]
+fn a_size_keeps_the_number_of_dimensions() {
+    let text = row_text("p4p").replace("{ nonlinear = \"0\" }", "{ d = \"3\" }");
+    let told = crate::table::read_text("p4p", &text, &[("d", "2")]);
+    assert!(told.problem.is_none());
+    let said = told.diagnostics.render(chetaev_model::Style::Plain);
+    assert!(said.contains("other-domain"), "{said}");
+}

@@ -261,3 +261,24 @@ fn an_indefinite_functional_has_no_minimum_among_polynomials() {
     assert!(!own.is_minimum);
     assert_eq!(own.value.to_string(), "-1");
 }
+
+#[test]
+fn ritz_says_what_it_lacks() {
+    let bar = |from: &str, to: &str| {
+        let text = text("bar");
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    };
+    // Data without a value are not zero.
+    let without =
+        bar("[fields]", "[data]\ng = \"scalar\"\n[fields]").replace("- F u", "- F u - g u");
+    let study = studied_text("p4p", &without, &[]);
+    let (word, detail) = verdict(&study, "functional.ritz");
+    assert_eq!(word, "undecided");
+    assert!(detail.contains("`g` has no value"), "{detail}");
+    // A point beyond the end is none of the bar.
+    let beyond = bar("at = { x = \"l\" }", "at = { x = \"2 l\" }");
+    let told = crate::table::read_text("p4p", &beyond, &[]);
+    let said = told.diagnostics.render(chetaev_model::Style::Plain);
+    assert!(said.contains("the point lies outside of the box"), "{said}");
+}

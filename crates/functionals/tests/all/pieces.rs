@@ -109,3 +109,90 @@ fn a_field_of_a_piece_is_used_on_it() {
     let verdict = &study.verdicts[0].finding.verdict;
     assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
 }
+
+/// A beam with a body at its free end: mass M and moment of inertia J (S. Timoshenko, Vibration Problems in Engineering, 1937, § 57).
+fn loaded_beam(moment: &str, force: &str) -> String {
+    format!(
+        r#"kind = "functional"
+name = "beam"
+density = "rho/2 u,t^2 - EI/2 u,xx^2"
+yields = ["a", "moment", "force"]
+[domain]
+coordinates = ["x"]
+time = "t"
+intervals = {{ x = [0, "l"] }}
+[parameters]
+l = "1"
+rho = {{}}
+EI = {{}}
+J = {{}}
+M = {{}}
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = {{ fixed = ["u", "u,n"] }}
+"x = l" = "M/2 u,t^2 + J/2 u,xt^2"
+[equations]
+a = "rho u,tt + EI u,xxxx = 0"
+moment = {{ equation = "{moment} = 0", on = "x = l" }}
+force = {{ equation = "{force} = 0", on = "x = l" }}
+"#
+    )
+}
+
+#[test]
+fn a_body_at_the_end_of_a_beam_has_two_conditions_with_accelerations() {
+    let word = |moment: &str, force: &str| {
+        let study = studied_text("p4p", &loaded_beam(moment, force), &[]);
+        study.verdicts[0].finding.verdict.word().to_owned()
+    };
+    let (moment, force) = ("EI u,xx + J u,xtt", "EI u,xxx - M u,tt");
+    assert_eq!(word(moment, force), "proved");
+    assert_eq!(word("EI u,xx - J u,xtt", force), "refuted");
+    assert_eq!(word(moment, "EI u,xxx + M u,tt"), "refuted");
+}
+
+#[test]
+fn a_derivative_that_a_piece_has_no_condition_for_is_named() {
+    let text = loaded_beam("u,xx", "u,xxx").replace("J/2 u,xt^2", "J/2 u,xx^2");
+    let study = studied_text("p4p", &text, &[]);
+    let detail = study.verdicts[0].finding.verdict.detail().to_owned();
+    assert!(
+        detail.contains("the density on `x = l` contains `u,xx`"),
+        "{detail}"
+    );
+}
+
+#[test]
+fn mistakes_in_lists_and_numbers_are_shown() {
+    let model = loaded_beam("u,xx", "u,xxx");
+    let cases = [
+        ("\"moment\", \"force\"]", "\"moment\", \"moment\"]", "`moment` stands twice under `yields`"),
+        (
+            "\"force\"]\n",
+            "\"force\"]\nimposed = [\"a\"]\n",
+            "`a` stands under `imposed` and under `yields`",
+        ),
+        ("l = \"1\"", "l = \"sqrt(-1)\"", "is no real number"),
+        ("rho = {}", "rho = \"1/log(1)\"", "zero"),
+        ("l = \"1\"", "l = \"l\"", "`l`"),
+        ("rho/2 u,t^2", "log(0) u,t^2", "`log(0)` is no real number"),
+        (
+            "[fields]",
+            "[data]\nF = \"scalar\"\n[fields]",
+            "",
+        ),
+        (
+            "[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"u\", \"u,n\"] }",
+            "[data]\nF = \"scalar\"\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"F\"] }",
+            "`F` is data, which are given everywhere",
+        ),
+    ];
+    for (from, to, words) in cases {
+        assert!(model.contains(from), "{from}");
+        let loaded = read_text("p4p", &model.replace(from, to), &[]);
+        let said = loaded.diagnostics.render(Style::Plain);
+        assert_eq!(loaded.problem.is_some(), words.is_empty(), "{to}: {said}");
+        assert!(said.contains(words), "{to}: {said}");
+    }
+}

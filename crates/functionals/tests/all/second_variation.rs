@@ -266,3 +266,19 @@ fn an_interval_without_length_is_refused() {
         );
     }
 }
+
+#[test]
+fn a_parameter_without_a_value_has_no_conjugate_point() {
+    let text = text("1/2 u,x^2 - k/2 u^2", "1", [HELD, HELD], "")
+        .replace("[parameters]", "[parameters]\nk = {}");
+    let study = studied_text("p4p", &text, &[]);
+    let mut all = study.verdicts.iter();
+    let own = all.find(|d| d.claim == "functional.second-variation");
+    let verdict = &own.unwrap().finding.verdict;
+    assert_eq!(verdict.word(), "undecided");
+    assert!(
+        verdict.detail().contains("no numbers"),
+        "{}",
+        verdict.detail()
+    );
+}

@@ -57,3 +57,78 @@ fn splits_that_split_nothing_are_not_proved() {
         assert!(regular.is_as_expected(), "{row}");
     }
 }
+
+/// A plate on a box with two free faces that meet. For ν = 1 its density is the square of Δw, and no condition is left at the corner.
+#[test]
+fn what_is_divided_by_is_said_where_it_is_needed_only() {
+    let text = r#"
+kind = "functional"
+name = "plate"
+density = "D/2 (w,ii w,jj - 2 (1 - nu) (w,xx w,yy - w,xy^2)) - q w"
+yields = ["a", "mx", "vx", "my", "vy", "c"]
+[domain]
+coordinates = ["x", "y"]
+intervals = { x = [0, "a"], y = [0, "b"] }
+[parameters]
+a = "1"
+b = "1"
+D = {}
+nu = {}
+[data]
+q = "scalar"
+[fields]
+w = "scalar"
+[boundary]
+"x = 0" = { fixed = ["w", "w,n"] }
+"y = 0" = { fixed = ["w", "w,n"] }
+"x = a" = "0"
+"y = b" = "0"
+[equations]
+a = "D w,iijj = q"
+mx = { equation = "w,xx + nu w,yy = 0", on = "x = a" }
+vx = { equation = "w,xxx + (2 - nu) w,xyy = 0", on = "x = a" }
+my = { equation = "w,yy + nu w,xx = 0", on = "y = b" }
+vy = { equation = "w,yyy + (2 - nu) w,xxy = 0", on = "y = b" }
+c = { equation = "w,xy = 0", on = "x = a, y = b" }
+"#;
+    let study = studied_text("p4p", text, &[]);
+    let verdict = crate::table::decided(&study, "functional.euler");
+    assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+    assert!(
+        verdict.detail().ends_with("where D ≠ 0 and nu - 1 ≠ 0"),
+        "{}",
+        verdict.detail()
+    );
+    for (nu, word) in [
+        ("0", "proved"),
+        ("2", "proved"),
+        ("1/3", "proved"),
+        ("1", "refuted"),
+    ] {
+        let study = studied_text("p4p", text, &[("nu", nu)]);
+        let verdict = crate::table::decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), word, "ν = {nu}: {}", verdict.detail());
+    }
+}
+
+#[test]
+fn fields_that_are_free_together_are_named_together() {
+    let text = rod("1", "-1/3")
+        .replace("E/2 u,x^2 - F u", "E/2 u,x^2 - F u + 1/2 (v - w)^2")
+        .replace(
+            "u = \"scalar\"\n",
+            "u = \"scalar\"\nv = \"scalar\"\nw = \"scalar\"\n",
+        )
+        .replace("yields = [\"a\"]", "yields = [\"a\", \"b\"]")
+        .replace("[solutions.s]", "b = \"v = w\"\n[solutions.s]");
+    let study = studied_text("p4p", &text, &[]);
+    let verdict = crate::table::decided(&study, "functional.euler");
+    assert_eq!(verdict.word(), "proved");
+    assert!(
+        verdict
+            .detail()
+            .contains("v and w are not determined together"),
+        "{}",
+        verdict.detail()
+    );
+}

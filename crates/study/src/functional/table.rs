@@ -4,6 +4,7 @@ use super::typesetting::field_name;
 use chetaev_functionals::functional::{Functional, Relative};
 use chetaev_functionals::Problem;
 use chetaev_report::data::{Cell, Table, TableRow};
+use std::collections::BTreeMap;
 
 /// The headings of the columns.
 pub(super) const HEADINGS: [&str; 5] = ["Level", "Functional", "Fields", "Imposed", "Yields"];
@@ -62,8 +63,9 @@ pub(super) fn table(problem: &Problem) -> Option<Table> {
         title: "Levels".into(),
         explanation: vec![
             "Each level imposes one more group of equations before the variation, and so has one field less; what is not imposed follows \
-             from the functional. The numbers are those of the field equations above."
+             from the functional."
                 .into(),
+            format!("The numbers are those of the field equations above{}.", others(problem)),
         ],
         headings: HEADINGS.map(str::to_owned).to_vec(),
         rows: rows(problem)
@@ -74,6 +76,29 @@ pub(super) fn table(problem: &Problem) -> Option<Table> {
             })
             .collect(),
     })
+}
+
+/// What numbers in the table stand for where this functional does not state it so, with the members of the family that do.
+fn others(problem: &Problem) -> String {
+    let own = &problem.functional.equations;
+    let is_own = |label: &str, statement: &str| {
+        let mut all = own.iter();
+        all.any(|e| e.label == label && e.statement() == statement)
+    };
+    let mut found: BTreeMap<(u64, &str, &str), Vec<&str>> = BTreeMap::new();
+    for member in &problem.family {
+        for label in member.imposed.iter().chain(&member.yields) {
+            let stated = member.equations.iter().find(|(key, _)| key == label);
+            if let Some((_, statement)) = stated.filter(|(_, own)| !is_own(label, own)) {
+                let key = (super::equations::number(label), label.as_str(), statement.as_str());
+                found.entry(key).or_default().push(&member.name);
+            }
+        }
+    }
+    let told = found.into_iter().map(|((_, label, statement), names)| {
+        format!("; for {} ({label}) is {statement}", names.join(", "))
+    });
+    told.collect()
 }
 
 /// The texts of a row, with the names of the fields typeset.

@@ -10,6 +10,7 @@ use super::form::Form;
 use crate::signs::{on_interval, Sign};
 use chetaev_integrate::{from_fn, integrate, Options};
 use chetaev_symbolic::{rational, Expr, Rational};
+use std::cell::Cell;
 
 /// So many steps between which a change of sign is looked for.
 const STEPS: usize = 256;
@@ -153,10 +154,15 @@ impl Equations<'_, '_> {
 
     fn between(&self, (from, to): (f64, f64), y: &[f64]) -> Option<Basis> {
         let dimension = y.len();
+        // Coefficients without a value somewhere, as with a parameter that has none, give no basis.
+        let is_defined = Cell::new(true);
         let mut system = from_fn(dimension, |x: f64, y: &[f64], dy: &mut [f64]| {
             match self.slope(x, y) {
                 Some(own) => dy.copy_from_slice(&own),
-                None => dy.fill(f64::NAN),
+                None => {
+                    is_defined.set(false);
+                    dy.fill(f64::NAN);
+                }
             }
         });
         let run = integrate(
@@ -166,9 +172,9 @@ impl Equations<'_, '_> {
             &mut [],
             Options::tolerance(1e-12),
         );
-        let own = run.ok()?;
-        let last = own.state;
-        last.iter().all(|v| v.is_finite()).then_some(last)
+        let last = run.ok()?.state;
+        let is_there = is_defined.get() && last.iter().all(|v| v.is_finite());
+        is_there.then_some(last)
     }
 
     /// The start at the left end.

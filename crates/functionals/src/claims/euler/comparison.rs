@@ -1,162 +1,44 @@
-//! `functional.euler`: stationarity is equivalent to the stated equations.
+//! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
+//! and where pieces meet.
 
-use super::branches::{branches, Branch};
-use super::modulo::{all_subsets as subsets, labels};
-use super::reduction::{reduced, restricted};
-use super::{Claim, Context, Finding};
+use super::defined::where_nonzero;
+use super::exceptional::holds_at_zero;
+use super::plane::is_contradictory_where_plane;
 use crate::elimination::{Group, Solved};
-use crate::functional::{Constitutive, Equation, Functional, Role};
-use crate::variation::{variation, Condition, OnPiece, Variation};
+use crate::functional::{Equation, Functional, Role};
+use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// `functional.euler#NAME`.
-pub(super) struct Euler;
-
-impl Claim for Euler {
-    fn id(&self) -> &'static str {
-        "functional.euler"
-    }
-
-    fn title(&self) -> &'static str {
-        "The functional is stationary exactly where the stated field equations and boundary conditions hold"
-    }
-
-    fn explanation(&self) -> &'static str {
-        "The Euler equations and the natural conditions on each piece of the boundary are derived from the densities, and compared \
-         with the equations that `yields` names, together with those that `imposed` names. Both systems are solved, one group of \
-         equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
-         conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
-         other holds, both ways. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
-         energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
-         regular. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
-         jet at which one system holds and the other does not."
-    }
-
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        vec![cx.own()]
-    }
-
-    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
-        let functional = cx.functional();
-        if functional.with_role(Role::Yielded).next().is_none() {
-            return Verdict::not_applicable(
-                "functional.euler",
-                "the model states no field equations under `yields`, so the Euler equations are only printed",
-            )
-            .into();
-        }
-        let own = reduced(functional);
-        let verdict = match branches(&own) {
-            Some(all) => on_branches(&all),
-            None => on_branch(&own, &[]),
-        };
-        match verdict {
-            Verdict::Proved(mut proof) => {
-                if let Some(said) = cx.admission.of_redundant() {
-                    proof.detail.push_str(&format!(", with {said}"));
-                }
-                proof.on.push_str(&where_defined(functional));
-                Verdict::Proved(proof).into()
-            }
-            other => other.into(),
-        }
-    }
-}
-
-/// The verdict where some expressions are known not to be negative.
-fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
-    let own = match variation(functional) {
-        Ok(own) => own,
-        Err(problem) => return Verdict::undecided(problem.to_string()),
-    };
-    match restricted(functional, &own) {
-        Some(why) => Verdict::undecided(why),
-        None => Comparison::new(functional, &own, nonnegative).verdict(),
-    }
-}
-
-/// The verdicts on all branches in one: true on some only, it is true where these are.
-fn on_branches(all: &[Branch]) -> Verdict {
-    let decided = all
-        .iter()
-        .map(|branch| on_branch(&branch.functional, &branch.nonnegative));
-    let mut proved: Vec<(&str, Proof)> = Vec::new();
-    let mut refuted: Option<Verdict> = None;
-    let mut open: Option<Verdict> = None;
-    for (branch, verdict) in all.iter().zip(decided) {
-        match verdict {
-            Verdict::Proved(proof) => proved.push((&branch.words, proof)),
-            Verdict::Refuted(_) if refuted.is_none() => {
-                refuted = Some(verdict.prefixed(&format!("where {}", branch.words)));
-            }
-            Verdict::Refuted(_) => {}
-            other if open.is_none() => {
-                open = Some(other.prefixed(&format!("where {}", branch.words)));
-            }
-            _ => {}
-        }
-    }
-    let Some((words, mut proof)) = proved.first().cloned() else {
-        return refuted
-            .or(open)
-            .unwrap_or_else(|| Verdict::undecided("there are no branches"));
-    };
-    match (refuted, open) {
-        (None, Some(open)) => open,
-        (Some(refuted), Some(_)) => refuted,
-        (None, None) => {
-            let joined = proved.into_iter().map(|(_, proof)| Verdict::Proved(proof));
-            joined.fold(Verdict::Proved(proof), Verdict::and)
-        }
-        (Some(Verdict::Refuted(counterexample)), None) => {
-            let each = proved.iter().map(|(words, _)| format!("({words})"));
-            let condition = match &proved[..] {
-                [_] => words.to_owned(),
-                _ => each.collect::<Vec<_>>().join(" or "),
-            };
-            proof.detail = format!(
-                "where {condition} {}; elsewhere not: {}",
-                proof.detail, counterexample.detail
-            );
-            Verdict::Conditional {
-                condition,
-                proof,
-                counterexample: Some(counterexample),
-            }
-        }
-        (Some(other), None) => other,
-    }
-}
-
-struct Comparison<'f> {
-    functional: &'f Functional,
-    variation: &'f Variation,
+/// The two systems, solved.
+pub(super) struct Comparison<'f> {
+    pub(super) functional: &'f Functional,
+    pub(super) variation: &'f Variation,
     /// What holds because it is imposed or derived.
-    derived: Solved<'f>,
+    pub(super) derived: Solved<'f>,
     /// What holds because it is imposed or stated.
     stated: Solved<'f>,
     /// What was divided by and has no value.
-    nonzero: RefCell<BTreeSet<String>>,
+    pub(super) nonzero: RefCell<BTreeSet<Expr>>,
+    /// Whether a counterexample is looked for.
+    pub(super) refutes: bool,
 }
 
 /// An equation that was compared.
-struct Judged {
-    what: String,
-    verdict: Verdict,
+pub(super) struct Judged {
+    pub(super) what: String,
+    pub(super) verdict: Verdict,
     /// What could not be solved for.
-    open: Vec<String>,
+    pub(super) open: Vec<String>,
     /// What was solved for where a coefficient does not vanish.
     pivots: Vec<String>,
 }
 
 impl<'f> Comparison<'f> {
     /// Where some expressions are known not to be negative.
-    fn new(
+    pub(super) fn new(
         functional: &'f Functional,
         variation: &'f Variation,
         nonnegative: &[Expr],
@@ -171,10 +53,24 @@ impl<'f> Comparison<'f> {
             derived: imposed.with(&euler_groups(functional, variation)),
             stated: imposed.with(&inside(Role::Yielded)),
             nonzero: RefCell::default(),
+            refutes: true,
         }
     }
 
-    fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> Verdict {
+        let verdict = self.compared();
+        if !matches!(verdict, Verdict::Proved(_)) {
+            return verdict;
+        }
+        let found = self.nonzero.borrow();
+        let is_needed = |factor: &&Expr| !holds_at_zero(self.functional, **factor, &found);
+        let needed = found.iter().filter(is_needed);
+        let g = &self.functional.space.graph;
+        where_nonzero(verdict, &needed.map(|&factor| g.text(factor)).collect())
+    }
+
+    /// The verdict where all that is divided by does not vanish.
+    pub(super) fn compared(&self) -> Verdict {
         let mut judged = Vec::new();
         let mut pivots: BTreeSet<String> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
@@ -206,10 +102,7 @@ impl<'f> Comparison<'f> {
         }
         self.edges(&mut judged);
         self.corners(&mut judged);
-        where_nonzero(
-            self.joined(judged, &pivots, &inverted),
-            &self.nonzero.borrow(),
-        )
+        self.joined(judged, &pivots, &inverted)
     }
 
     /// Where two faces meet: the conditions there, both ways.
@@ -350,8 +243,12 @@ impl<'f> Comparison<'f> {
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
         let divided = solved.nonzero.iter().cloned();
         self.nonzero.borrow_mut().extend(divided);
-        let whole = of_all(es, solved);
-        let is_proved = matches!(whole, Verdict::Proved(_));
+        let whole = match self.refutes {
+            true => of_all(es, solved),
+            false if solved.follows(es) => Verdict::Proved(Proof::exact("", "")),
+            false => Verdict::undecided(""),
+        };
+        let is_proved = !self.refutes || matches!(whole, Verdict::Proved(_));
         let cases = if solved.left.is_empty() || is_proved {
             Vec::new()
         } else {
@@ -394,7 +291,7 @@ impl<'f> Comparison<'f> {
     }
 
     /// Both directions on a piece of the boundary.
-    fn piece(&self, on: &OnPiece, judged: &mut Vec<Judged>) -> (Solved<'f>, Solved<'f>) {
+    pub(super) fn piece(&self, on: &OnPiece, judged: &mut Vec<Judged>) -> (Solved<'f>, Solved<'f>) {
         let functional = self.functional;
         let name = Some(on.piece.as_str());
         let imposed = groups(functional, Role::Imposed, name);
@@ -492,155 +389,24 @@ impl<'f> Comparison<'f> {
 
     /// Whether the Euler equations and natural conditions contradict each other, so that there is nothing to compare.
     fn is_contradictory(&self) -> bool {
-        let is_so = |on: &OnPiece| {
-            let functional = self.functional;
-            let Some(piece) = functional.piece(&on.piece) else {
-                return false;
-            };
-            let imposed = groups(functional, Role::Imposed, Some(&on.piece));
-            let here = self.derived.with_on(&piece.side, &imposed);
-            let here = here.with(&condition_groups(functional, on, &on.conditions));
-            here.contradiction().is_some()
-        };
-        self.derived.contradiction().is_some() || self.variation.pieces.iter().any(is_so)
+        let mut pieces = self.variation.pieces.iter();
+        self.derived.contradiction().is_some() || pieces.any(|on| self.is_contradictory_on(on))
     }
 
-    /// Functions stated as conjugates whose formulas are not proved to be so: no gradient of them was undone.
-    fn unrelated(&self) -> String {
+    /// The same on a piece. What contradicts itself there does so where the piece is plane, which is soon seen.
+    pub(super) fn is_contradictory_on(&self, on: &OnPiece) -> bool {
         let functional = self.functional;
-        let space = &*functional.space;
-        let is_unrelated =
-            |f: &&Constitutive| f.conjugate.is_some() && space.undoing(f.function).is_none();
-        let own = functional.functions.iter().filter(is_unrelated);
-        let names: Vec<&str> = own.map(|f| f.name.as_str()).collect();
-        if names.is_empty() {
-            return String::new();
-        }
-        format!(
-            "; that {} are Legendre conjugates is not proved (functional.legendre), so that it was not used",
-            names.join(" and ")
-        )
-    }
-
-    /// Fields without derivatives of which the Euler equations leave components free.
-    fn undetermined(&self) -> Vec<String> {
-        let functional = self.functional;
-        let jets = functional.space.jets_in(&[functional.density]);
-        let is_algebraic = |components: &[usize]| {
-            let mut own = jets
-                .iter()
-                .filter(|jet| components.contains(&jet.component));
-            own.all(|jet| jet.by.is_empty())
-        };
-        let algebraic = functional
-            .interior()
-            .filter(|f| is_algebraic(&f.components));
-        let euler = self.variation.euler.iter().map(|(_, value)| *value);
-        let imposed = functional
-            .with_role(Role::Imposed)
-            .filter(|e| e.on.is_none())
-            .flat_map(|e| e.residuals.iter().copied());
-        let equations: Vec<Expr> = euler.chain(imposed).collect();
-        let found = algebraic.filter_map(|field| {
-            let free = self
-                .derived
-                .free_components(&field.components, &equations)?;
-            (free > 0).then(|| {
-                let all = field.components.len();
-                format!(
-                    "while {} is not determined: {free} of its {all} components are left free",
-                    field.name
-                )
-            })
-        });
-        found.collect()
-    }
-
-    /// On which pieces the conditions are the stated ones only with traces of equations that hold inside: the fewest are named.
-    fn traces(&self) -> Vec<String> {
-        let mut found: Vec<(String, Vec<String>)> = Vec::new();
-        for on in &self.variation.pieces {
-            if let Some(needed) = self.trace_on(on).filter(|needed| !needed.is_empty()) {
-                let needed = labels(&needed);
-                match found.iter_mut().find(|(own, _)| *own == needed) {
-                    Some((_, pieces)) => pieces.push(on.piece.clone()),
-                    None => found.push((needed, vec![on.piece.clone()])),
-                }
-            }
-        }
-        let told = |(needed, pieces): (String, Vec<String>)| {
-            format!("on {} with the trace of {needed}", pieces.join(" and "))
-        };
-        found.into_iter().map(told).collect()
-    }
-
-    fn trace_on(&self, on: &OnPiece) -> Option<Vec<String>> {
-        let functional = self.functional;
-        let inside: Vec<Group> = functional
-            .with_role(Role::Yielded)
-            .filter(|e| e.on.is_none())
-            .map(|e| Group {
-                label: e.label.clone(),
-                equations: e.residuals.clone(),
-            })
-            .collect();
-        let imposed = Solved::new(&functional.space).with(&groups(functional, Role::Imposed, None));
-        let found = subsets(inside.len()).into_iter().find(|chosen| {
-            let own: Vec<Group> = chosen.iter().map(|&i| inside[i].clone()).collect();
-            self.holds_on(on, &imposed.with(&own))
-        })?;
-        Some(found.iter().map(|&i| inside[i].label.clone()).collect())
-    }
-
-    /// Whether the conditions on a piece are the stated ones where `inside` holds.
-    fn holds_on(&self, on: &OnPiece, inside: &Solved<'f>) -> bool {
-        let functional = self.functional;
-        let name = Some(on.piece.as_str());
         let Some(piece) = functional.piece(&on.piece) else {
             return false;
         };
-        let here = inside.with_on(&piece.side, &groups(functional, Role::Imposed, name));
-        let stated = here.with(&groups(functional, Role::Yielded, name));
-        let mut conditions = on.conditions.iter();
-        if !conditions.all(|condition| stated.follows(&[condition.value])) {
+        let is_bent = !on.slopes.is_empty();
+        if is_bent && !is_contradictory_where_plane(functional, piece) {
             return false;
         }
-        let derived = here.with(&condition_groups(functional, on, &on.conditions));
-        let mut equations = functional
-            .with_role(Role::Yielded)
-            .filter(|e| e.on.as_deref() == name);
-        equations.all(|equation| derived.follows(&equation.residuals))
-    }
-
-    fn detail(&self) -> String {
-        let functional = self.functional;
-        let label = |role: Role| -> Vec<String> {
-            functional
-                .with_role(role)
-                .map(|e| e.label.clone())
-                .collect()
-        };
-        let (imposed, yielded) = (label(Role::Imposed), label(Role::Yielded));
-        let mut detail = format!(
-            "the Euler equations and natural conditions are equivalent to {}",
-            labels(&yielded)
-        );
-        if !imposed.is_empty() {
-            detail.push_str(&format!(", where {} hold beforehand", labels(&imposed)));
-        }
-        let multipliers: Vec<String> = functional
-            .equations
-            .iter()
-            .filter(|e| e.role == Role::Imposed)
-            .filter_map(|e| Some(format!("{} of ({})", e.multiplier.as_ref()?.0, e.label)))
-            .collect();
-        if !multipliers.is_empty() {
-            detail.push_str(&format!(
-                ", with the multipliers {}",
-                multipliers.join(", ")
-            ));
-        }
-        detail
+        let imposed = groups(functional, Role::Imposed, Some(&on.piece));
+        let here = self.derived.with_on(&piece.side, &imposed);
+        let here = here.with(&condition_groups(functional, on, &on.conditions));
+        here.contradiction().is_some()
     }
 }
 
@@ -658,7 +424,7 @@ fn of_all(es: &[Expr], solved: &Solved<'_>) -> Verdict {
     verdict
 }
 
-fn refuted(what: &str, found: Counterexample) -> Verdict {
+pub(super) fn refuted(what: &str, found: Counterexample) -> Verdict {
     let (lower, upper) = &found.residual;
     let size = if lower == upper {
         format!("is {lower}")
@@ -672,88 +438,6 @@ fn refuted(what: &str, found: Counterexample) -> Verdict {
         quantity: what.to_owned(),
         ..found
     })
-}
-
-/// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it.
-fn where_defined(functional: &Functional) -> String {
-    let stated = functional.equations.iter();
-    let stated = stated.filter(|e| e.role != Role::Other);
-    let stated: Vec<Expr> = stated.flat_map(|e| e.residuals.iter().copied()).collect();
-    let mut densities: Vec<Expr> = vec![functional.density];
-    densities.extend(functional.pieces.iter().map(|piece| piece.density));
-    let mut all = conditions(functional, &densities, Need::Slope);
-    all.extend(conditions(functional, &stated, Need::Value));
-    if all.is_empty() {
-        return String::new();
-    }
-    let all: Vec<String> = all.into_iter().collect();
-    format!(", where {}", all.join(", "))
-}
-
-/// What an expression is needed for.
-#[derive(Clone, Copy, PartialEq)]
-enum Need {
-    /// It has to have a value.
-    Value,
-    /// It has to have derivatives.
-    Slope,
-}
-
-/// Conditions under which expressions have values, or derivatives.
-fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<String> {
-    let g = &functional.space.graph;
-    let is_smooth = need == Need::Slope;
-    let condition = |e: Expr| {
-        let (inner, relation) = match g.node(e) {
-            Node::Power { base, exponent } => {
-                let number = g.as_number(*exponent);
-                let is_whole = number.and_then(rational::to_i64).is_some();
-                let is_negative = number.is_some_and(rational::is_negative);
-                let is_even_root =
-                    number.is_none_or(|n| n.denominator().trailing_zeros() != Some(0));
-                match (is_whole, is_even_root) {
-                    (true, _) if is_negative => (*base, "!="),
-                    (true, _) => return None,
-                    (false, true) if is_smooth || is_negative => (*base, ">"),
-                    (false, true) => (*base, ">="),
-                    (false, false) if is_smooth || is_negative => (*base, "!="),
-                    (false, false) => return None,
-                }
-            }
-            Node::Apply {
-                function,
-                arguments,
-            } => match function {
-                Function::Log => (*arguments.first()?, ">"),
-                Function::Abs if is_smooth => (*arguments.first()?, "!="),
-                _ => return None,
-            },
-            _ => return None,
-        };
-        let sign = known_sign(g, inner, &Assumptions::new());
-        let is_known = match relation {
-            ">" => sign.is_positive(),
-            ">=" => sign.is_nonnegative(),
-            _ => sign.is_nonzero(),
-        };
-        let has_jets = !functional.space.jets_in(&[inner]).is_empty();
-        (has_jets && !is_known).then(|| format!("{} {relation} 0", g.text(inner)))
-    };
-    g.reachable(es).into_iter().filter_map(condition).collect()
-}
-
-/// A proof that divides by something without a value holds where that does not vanish.
-fn where_nonzero(verdict: Verdict, nonzero: &BTreeSet<String>) -> Verdict {
-    match verdict {
-        Verdict::Proved(mut proof) if !nonzero.is_empty() => {
-            let all: Vec<String> = nonzero.iter().map(|e| format!("{e} ≠ 0")).collect();
-            let said = format!(", where {}", all.join(" and "));
-            proof.on.push_str(&said);
-            proof.detail.push_str(&said);
-            Verdict::Proved(proof)
-        }
-        other => other,
-    }
 }
 
 /// Where a proof holds.
@@ -810,7 +494,7 @@ fn along(functional: &Functional, q: &[Expr]) -> Vec<Expr> {
     own.map(|(&n, &q)| g.sub(q, g.mul(&[n, through]))).collect()
 }
 
-fn groups(functional: &Functional, role: Role, on: Option<&str>) -> Vec<Group> {
+pub(super) fn groups(functional: &Functional, role: Role, on: Option<&str>) -> Vec<Group> {
     functional
         .with_role(role)
         .filter(|e| e.on.as_deref() == on)
@@ -835,7 +519,11 @@ fn euler_groups(functional: &Functional, variation: &Variation) -> Vec<Group> {
     own.collect()
 }
 
-fn condition_groups(functional: &Functional, on: &OnPiece, conditions: &[Condition]) -> Vec<Group> {
+pub(super) fn condition_groups(
+    functional: &Functional,
+    on: &OnPiece,
+    conditions: &[Condition],
+) -> Vec<Group> {
     let mut found: Vec<Group> = Vec::new();
     for condition in conditions {
         let tensor = functional.space.component_at(condition.component).tensor;

@@ -1,0 +1,89 @@
+//! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
+
+use crate::functional::{Functional, Role};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+use std::collections::BTreeSet;
+
+/// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it.
+pub(super) fn where_defined(functional: &Functional) -> String {
+    let stated = functional.equations.iter();
+    let stated = stated.filter(|e| e.role != Role::Other);
+    let stated: Vec<Expr> = stated.flat_map(|e| e.residuals.iter().copied()).collect();
+    let mut densities: Vec<Expr> = vec![functional.density];
+    densities.extend(functional.pieces.iter().map(|piece| piece.density));
+    let mut all = conditions(functional, &densities, Need::Slope);
+    all.extend(conditions(functional, &stated, Need::Value));
+    if all.is_empty() {
+        return String::new();
+    }
+    let all: Vec<String> = all.into_iter().collect();
+    format!(", where {}", all.join(", "))
+}
+
+/// What an expression is needed for.
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    /// It has to have a value.
+    Value,
+    /// It has to have derivatives.
+    Slope,
+}
+
+/// Conditions under which expressions have values, or derivatives.
+fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<String> {
+    let g = &functional.space.graph;
+    let is_smooth = need == Need::Slope;
+    let condition = |e: Expr| {
+        let (inner, relation) = match g.node(e) {
+            Node::Power { base, exponent } => {
+                let number = g.as_number(*exponent);
+                let is_whole = number.and_then(rational::to_i64).is_some();
+                let is_negative = number.is_some_and(rational::is_negative);
+                let is_even_root =
+                    number.is_none_or(|n| n.denominator().trailing_zeros() != Some(0));
+                match (is_whole, is_even_root) {
+                    (true, _) if is_negative => (*base, "!="),
+                    (true, _) => return None,
+                    (false, true) if is_smooth || is_negative => (*base, ">"),
+                    (false, true) => (*base, ">="),
+                    (false, false) if is_smooth || is_negative => (*base, "!="),
+                    (false, false) => return None,
+                }
+            }
+            Node::Apply {
+                function,
+                arguments,
+            } => match function {
+                Function::Log => (*arguments.first()?, ">"),
+                Function::Abs if is_smooth => (*arguments.first()?, "!="),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let sign = known_sign(g, inner, &Assumptions::new());
+        let is_known = match relation {
+            ">" => sign.is_positive(),
+            ">=" => sign.is_nonnegative(),
+            _ => sign.is_nonzero(),
+        };
+        let has_jets = !functional.space.jets_in(&[inner]).is_empty();
+        (has_jets && !is_known).then(|| format!("{} {relation} 0", g.text(inner)))
+    };
+    g.reachable(es).into_iter().filter_map(condition).collect()
+}
+
+/// A proof that divides by something without a value holds where that does not vanish.
+pub(super) fn where_nonzero(verdict: Verdict, nonzero: &BTreeSet<String>) -> Verdict {
+    match verdict {
+        Verdict::Proved(mut proof) if !nonzero.is_empty() => {
+            let all: Vec<String> = nonzero.iter().map(|e| format!("{e} ≠ 0")).collect();
+            let said = format!(", where {}", all.join(" and "));
+            proof.on.push_str(&said);
+            proof.detail.push_str(&said);
+            Verdict::Proved(proof)
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,141 @@
+//! `functional.euler`: stationarity is equivalent to the stated equations.
+
+mod comparison;
+mod defined;
+mod described;
+mod exceptional;
+mod plane;
+
+use self::comparison::Comparison;
+use self::defined::where_defined;
+use self::plane::refuted_where_plane;
+use super::branches::{branches, Branch};
+use super::reduction::{reduced, restricted};
+use super::{Claim, Context, Finding};
+use crate::functional::{Functional, Role};
+use crate::variation::{variation, OnPiece};
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `functional.euler#NAME`.
+pub(super) struct Euler;
+
+impl Claim for Euler {
+    fn id(&self) -> &'static str {
+        "functional.euler"
+    }
+
+    fn title(&self) -> &'static str {
+        "The functional is stationary exactly where the stated field equations and boundary conditions hold"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The Euler equations and the natural conditions on each piece of the boundary are derived from the densities, and compared \
+         with the equations that `yields` names, together with those that `imposed` names. Both systems are solved, one group of \
+         equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
+         conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
+         other holds, both ways. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
+         energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
+         regular. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
+         jet at which one system holds and the other does not."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        vec![cx.own()]
+    }
+
+    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        let functional = cx.functional();
+        if functional.with_role(Role::Yielded).next().is_none() {
+            return Verdict::not_applicable(
+                "functional.euler",
+                "the model states no field equations under `yields`, so the Euler equations are only printed",
+            )
+            .into();
+        }
+        let own = reduced(functional);
+        let verdict = match branches(&own) {
+            Some(all) => on_branches(&all),
+            None => on_branch(&own, &[]),
+        };
+        match verdict {
+            Verdict::Proved(mut proof) => {
+                if let Some(said) = cx.admission.of_redundant() {
+                    proof.detail.push_str(&format!(", with {said}"));
+                }
+                proof.on.push_str(&where_defined(functional));
+                Verdict::Proved(proof).into()
+            }
+            other => other.into(),
+        }
+    }
+}
+
+/// The verdict where some expressions are known not to be negative.
+fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
+    let own = match variation(functional) {
+        Ok(own) => own,
+        Err(problem) => return Verdict::undecided(problem.to_string()),
+    };
+    if let Some(why) = restricted(functional, &own) {
+        return Verdict::undecided(why);
+    }
+    let is_of_second_order = |on: &&OnPiece| !on.slopes.is_empty();
+    let bent = own.pieces.iter().filter(is_of_second_order);
+    let mut bent = bent.filter_map(|on| functional.piece(&on.piece));
+    let where_plane = bent.find_map(|piece| refuted_where_plane(functional, piece, nonnegative));
+    where_plane.unwrap_or_else(|| Comparison::new(functional, &own, nonnegative).verdict())
+}
+
+/// The verdicts on all branches in one: true on some only, it is true where these are.
+fn on_branches(all: &[Branch]) -> Verdict {
+    let decided = all
+        .iter()
+        .map(|branch| on_branch(&branch.functional, &branch.nonnegative));
+    let mut proved: Vec<(&str, Proof)> = Vec::new();
+    let mut refuted: Option<Verdict> = None;
+    let mut open: Option<Verdict> = None;
+    for (branch, verdict) in all.iter().zip(decided) {
+        match verdict {
+            Verdict::Proved(proof) => proved.push((&branch.words, proof)),
+            Verdict::Refuted(_) if refuted.is_none() => {
+                refuted = Some(verdict.prefixed(&format!("where {}", branch.words)));
+            }
+            Verdict::Refuted(_) => {}
+            other if open.is_none() => {
+                open = Some(other.prefixed(&format!("where {}", branch.words)));
+            }
+            _ => {}
+        }
+    }
+    let Some((words, mut proof)) = proved.first().cloned() else {
+        return refuted
+            .or(open)
+            .unwrap_or_else(|| Verdict::undecided("there are no branches"));
+    };
+    match (refuted, open) {
+        (None, Some(open)) => open,
+        (Some(refuted), Some(_)) => refuted,
+        (None, None) => {
+            let joined = proved.into_iter().map(|(_, proof)| Verdict::Proved(proof));
+            joined.fold(Verdict::Proved(proof), Verdict::and)
+        }
+        (Some(Verdict::Refuted(counterexample)), None) => {
+            let each = proved.iter().map(|(words, _)| format!("({words})"));
+            let condition = match &proved[..] {
+                [_] => words.to_owned(),
+                _ => each.collect::<Vec<_>>().join(" or "),
+            };
+            proof.detail = format!(
+                "where {condition} {}; elsewhere not: {}",
+                proof.detail, counterexample.detail
+            );
+            Verdict::Conditional {
+                condition,
+                proof,
+                counterexample: Some(counterexample),
+            }
+        }
+        (Some(other), None) => other,
+    }
+}
