@@ -3,23 +3,26 @@
 
 use super::defined::where_nonzero;
 use super::exceptional::holds_at_zero;
-use super::plane::is_contradictory_where_plane;
+use super::plane::Plane;
 use crate::elimination::{Group, Solved};
-use crate::functional::{Equation, Functional, Role};
+use crate::functional::{Equation, Functional, Piece, Role};
 use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The two systems, solved.
 pub(super) struct Comparison<'f> {
     pub(super) functional: &'f Functional,
     pub(super) variation: &'f Variation,
+    pub(super) planes: &'f [Plane],
     /// What holds because it is imposed or derived.
     pub(super) derived: Solved<'f>,
     /// What holds because it is imposed or stated.
     stated: Solved<'f>,
+    /// What is derived on pieces, by name.
+    on_pieces: RefCell<BTreeMap<String, Solved<'f>>>,
     /// What was divided by and has no value.
     pub(super) nonzero: RefCell<BTreeSet<Expr>>,
     /// Whether a counterexample is looked for.
@@ -41,6 +44,7 @@ impl<'f> Comparison<'f> {
     pub(super) fn new(
         functional: &'f Functional,
         variation: &'f Variation,
+        planes: &'f [Plane],
         nonnegative: &[Expr],
     ) -> Comparison<'f> {
         let space = &*functional.space;
@@ -50,14 +54,37 @@ impl<'f> Comparison<'f> {
         Comparison {
             functional,
             variation,
+            planes,
             derived: imposed.with(&euler_groups(functional, variation)),
             stated: imposed.with(&inside(Role::Yielded)),
+            on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
             refutes: true,
         }
     }
 
+    /// The comparison of another functional with the same interior.
+    pub(super) fn of_another(
+        &self,
+        functional: &'f Functional,
+        variation: &'f Variation,
+    ) -> Comparison<'f> {
+        Comparison {
+            functional,
+            variation,
+            planes: &[],
+            derived: self.derived.clone(),
+            stated: self.stated.clone(),
+            on_pieces: RefCell::default(),
+            nonzero: RefCell::default(),
+            refutes: self.refutes,
+        }
+    }
+
     pub(super) fn verdict(&self) -> Verdict {
+        if let Some(refuted) = self.refuted_where_plane() {
+            return refuted;
+        }
         let verdict = self.compared();
         if !matches!(verdict, Verdict::Proved(_)) {
             return verdict;
@@ -298,10 +325,7 @@ impl<'f> Comparison<'f> {
         let Some(piece) = functional.piece(&on.piece) else {
             return (self.derived.clone(), self.stated.clone());
         };
-        let derived = self
-            .derived
-            .with_on(&piece.side, &imposed)
-            .with(&condition_groups(functional, on, &on.conditions));
+        let derived = self.derived_on(on, piece);
         let stated = self.stated.with_on(&piece.side, &imposed).with(&groups(
             functional,
             Role::Yielded,
@@ -395,18 +419,24 @@ impl<'f> Comparison<'f> {
 
     /// The same on a piece. What contradicts itself there does so where the piece is plane, which is soon seen.
     pub(super) fn is_contradictory_on(&self, on: &OnPiece) -> bool {
-        let functional = self.functional;
-        let Some(piece) = functional.piece(&on.piece) else {
+        let Some(piece) = self.functional.piece(&on.piece) else {
             return false;
         };
-        let is_bent = !on.slopes.is_empty();
-        if is_bent && !is_contradictory_where_plane(functional, piece) {
-            return false;
+        self.is_contradictory_where_plane(&on.piece) != Some(false)
+            && self.derived_on(on, piece).contradiction().is_some()
+    }
+
+    /// What holds on a piece because it is imposed or derived.
+    fn derived_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
+        if let Some(known) = self.on_pieces.borrow().get(&on.piece) {
+            return known.clone();
         }
+        let functional = self.functional;
         let imposed = groups(functional, Role::Imposed, Some(&on.piece));
         let here = self.derived.with_on(&piece.side, &imposed);
-        let here = here.with(&condition_groups(functional, on, &on.conditions));
-        here.contradiction().is_some()
+        let own = here.with(&condition_groups(functional, on, &on.conditions));
+        let mut known = self.on_pieces.borrow_mut();
+        known.entry(on.piece.clone()).or_insert(own).clone()
     }
 }
 

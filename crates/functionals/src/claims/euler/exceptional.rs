@@ -15,7 +15,7 @@ pub(super) fn holds_at_zero(functional: &Functional, factor: Expr, known: &BTree
     let Ok(own) = variation(&special) else {
         return false;
     };
-    let mut comparison = Comparison::new(&special, &own, &[]);
+    let mut comparison = Comparison::new(&special, &own, &[], &[]);
     comparison.refutes = false;
     let is_proved = matches!(comparison.compared(), Verdict::Proved(_));
     let divided = comparison.nonzero.borrow();

@@ -8,12 +8,12 @@ mod plane;
 
 use self::comparison::Comparison;
 use self::defined::where_defined;
-use self::plane::refuted_where_plane;
+use self::plane::planes;
 use super::branches::{branches, Branch};
 use super::reduction::{reduced, restricted};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role};
-use crate::variation::{variation, OnPiece};
+use crate::variation::variation;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -80,11 +80,8 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
     if let Some(why) = restricted(functional, &own) {
         return Verdict::undecided(why);
     }
-    let is_of_second_order = |on: &&OnPiece| !on.slopes.is_empty();
-    let bent = own.pieces.iter().filter(is_of_second_order);
-    let mut bent = bent.filter_map(|on| functional.piece(&on.piece));
-    let where_plane = bent.find_map(|piece| refuted_where_plane(functional, piece, nonnegative));
-    where_plane.unwrap_or_else(|| Comparison::new(functional, &own, nonnegative).verdict())
+    let planes = planes(functional, &own);
+    Comparison::new(functional, &own, &planes, nonnegative).verdict()
 }
 
 /// The verdicts on all branches in one: true on some only, it is true where these are.

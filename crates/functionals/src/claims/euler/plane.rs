@@ -6,8 +6,29 @@
 use super::comparison::{refuted, Comparison};
 use crate::functional::{Functional, Piece, Side};
 use crate::read::on_side;
-use crate::variation::variation;
-use chetaev_symbolic::{Expr, Verdict};
+use crate::variation::{variation, OnPiece, Variation};
+use chetaev_symbolic::Verdict;
+
+/// A functional with one plane piece of boundary, and its first variation.
+pub(super) struct Plane {
+    pub(super) functional: Functional,
+    pub(super) variation: Variation,
+}
+
+/// The curved pieces with second derivatives, each where it is plane: on others nothing becomes long.
+pub(super) fn planes(functional: &Functional, variation: &Variation) -> Vec<Plane> {
+    let is_bent = |on: &&OnPiece| !on.slopes.is_empty();
+    let bent = variation.pieces.iter().filter(is_bent);
+    let found = bent.filter_map(|on| {
+        let functional = with_plane(functional, functional.piece(&on.piece)?)?;
+        let variation = self::variation(&functional).ok()?;
+        Some(Plane {
+            functional,
+            variation,
+        })
+    });
+    found.collect()
+}
 
 /// The functional of a domain whose boundary has only the one piece, which lies across the first independent variable; `None` where the
 /// piece is a face already.
@@ -44,39 +65,35 @@ fn with_plane(functional: &Functional, piece: &Piece) -> Option<Functional> {
     Some(own)
 }
 
-/// A refutation on a piece where it is plane: there no derivative of the curvature makes equations long.
-pub(super) fn refuted_where_plane(
-    functional: &Functional,
-    piece: &Piece,
-    nonnegative: &[Expr],
-) -> Option<Verdict> {
-    let plane = with_plane(functional, piece)?;
-    let own = variation(&plane).ok()?;
-    let comparison = Comparison::new(&plane, &own, nonnegative);
-    let mut judged = Vec::new();
-    comparison.piece(own.pieces.first()?, &mut judged);
-    judged.into_iter().find_map(|own| match own.verdict {
-        Verdict::Refuted(found) if own.open.is_empty() => {
-            let first = &functional.space.coordinates.first()?.name;
-            let what = format!(
-                "where {} lies in a plane {first} = constant, {}",
-                piece.name, own.what
-            );
-            Some(refuted(&what, found))
-        }
-        _ => None,
-    })
-}
+impl<'f> Comparison<'f> {
+    /// The comparison of a piece where it is plane; the interior is the same.
+    fn where_plane(&self, plane: &'f Plane) -> Comparison<'f> {
+        self.of_another(&plane.functional, &plane.variation)
+    }
 
-/// Whether the Euler equations and natural conditions contradict each other on a piece where it is plane; true where that is not known.
-pub(super) fn is_contradictory_where_plane(functional: &Functional, piece: &Piece) -> bool {
-    let Some(plane) = with_plane(functional, piece) else {
-        return true;
-    };
-    let Ok(own) = variation(&plane) else {
-        return true;
-    };
-    let comparison = Comparison::new(&plane, &own, &[]);
-    let mut pieces = own.pieces.iter();
-    pieces.any(|on| comparison.is_contradictory_on(on))
+    /// A refutation on a piece where it is plane: there no derivative of the curvature makes equations long.
+    pub(super) fn refuted_where_plane(&self) -> Option<Verdict> {
+        let first = &self.functional.space.coordinates.first()?.name;
+        self.planes.iter().find_map(|plane| {
+            let on = plane.variation.pieces.first()?;
+            let mut judged = Vec::new();
+            self.where_plane(plane).piece(on, &mut judged);
+            judged.into_iter().find_map(|own| match own.verdict {
+                Verdict::Refuted(found) if own.open.is_empty() => {
+                    let place = format!("where {} lies in a plane {first} = constant", on.piece);
+                    Some(refuted(&format!("{place}, {}", own.what), found))
+                }
+                _ => None,
+            })
+        })
+    }
+
+    /// Whether the Euler equations and natural conditions contradict each other on a piece where it is plane; `None` where that is not known.
+    pub(super) fn is_contradictory_where_plane(&self, piece: &str) -> Option<bool> {
+        let mut planes = self.planes.iter();
+        planes.find_map(|plane| {
+            let on = plane.variation.pieces.first()?;
+            (on.piece == piece).then(|| self.where_plane(plane).is_contradictory_on(on))
+        })
+    }
 }
