@@ -21,7 +21,7 @@ What is long is taken by fifths: the replays of the gallery, and the random syst
 Which fifth follows from the commit that is checked out and is said at the start; the
 environment variable CHETAEV_TESTS, a number from 0 to 4, takes another.
 
-  --full    all of it, and more: all replays, a thousand systems of each family, five thousand mutated models
+  --full    all of it, and more: all replays, five hundred systems of each family, five thousand mutated models
   --help    this text
 ";
 

@@ -30,7 +30,7 @@ pub const FAMILY_NAMES: [&str; 20] = [
 pub const USUAL_COUNT: u64 = 50;
 
 /// Systems of each family with `--full`.
-pub const FULL_COUNT: u64 = 1000;
+pub const FULL_COUNT: u64 = 500;
 
 /// What `--help` says.
 pub const HELP: &str = "\
@@ -38,7 +38,7 @@ Random systems and the laws they must obey
 
 Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
 
-  --full           1000 systems of each family (otherwise 50)
+  --full           500 systems of each family (otherwise 50)
   --count N        N systems of each family
   --family NAME    only this family; may be repeated
   --seed N         only the system with this seed; its model is printed with the verdict of every law
@@ -162,7 +162,7 @@ mod tests {
         let all = read("").unwrap();
         let every = FAMILY_NAMES.len();
         assert_eq!((all.families.len(), all.count, all.seed), (every, 50, None));
-        assert_eq!(read("--full").unwrap().count, 1000);
+        assert_eq!(read("--full").unwrap().count, 500);
         let one = read("--family nonquadratic --seed=17").unwrap();
         assert_eq!(
             (one.families, one.seed),

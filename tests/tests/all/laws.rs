@@ -1,5 +1,5 @@
 //! Random systems of each family obey the laws: true statements are proved, wrong equations are refuted. A run takes a fifth of
-//! fifty systems of each family (`chetaev_tests::extent`), a full one a thousand.
+//! fifty systems of each family (`chetaev_tests::extent`), a full one five hundred.
 //!
 //! `cargo xtask laws` takes fifty, and `cargo xtask laws --family NAME --seed N` repeats one.
 #![allow(

@@ -90,7 +90,11 @@ fn others(problem: &Problem) -> String {
         for label in member.imposed.iter().chain(&member.yields) {
             let stated = member.equations.iter().find(|(key, _)| key == label);
             if let Some((_, statement)) = stated.filter(|(_, own)| !is_own(label, own)) {
-                let key = (super::equations::number(label), label.as_str(), statement.as_str());
+                let key = (
+                    super::equations::number(label),
+                    label.as_str(),
+                    statement.as_str(),
+                );
                 found.entry(key).or_default().push(&member.name);
             }
         }
