@@ -15,6 +15,15 @@ const MOST_PRODUCTS: usize = 4;
 impl<'s> Solved<'s> {
     /// What cannot be where all equations hold: an equation that is left although it never holds, with its label.
     pub fn contradiction(&self) -> Option<(String, Expr)> {
+        self.contradiction_as_solved().or_else(|| {
+            let (group, at, _) = self.product()?;
+            let left = &self.left[group];
+            let own = (left.label.clone(), left.equations[at]);
+            self.cases().is_empty().then_some(own)
+        })
+    }
+
+    fn contradiction_as_solved(&self) -> Option<(String, Expr)> {
         let own = self.impossible();
         if own.is_some() || !self.is_cut || self.is_circular() {
             return own;
@@ -88,8 +97,9 @@ impl<'s> Solved<'s> {
         of_rules.chain(left).filter(is_of_given).collect()
     }
 
-    /// The cases of which one holds wherever the equations do: one for each factor of an equation that is left and is a product.
-    pub fn alternatives(&self) -> Vec<Solved<'s>> {
+    /// The cases of which one holds wherever the equations do: one for each factor of an equation that is left and is a product, without
+    /// those in which nothing holds.
+    pub fn cases(&self) -> Vec<Solved<'s>> {
         let mut found = Vec::new();
         let mut open = vec![(self.clone(), 0)];
         while let Some((own, depth)) = open.pop() {
@@ -107,35 +117,48 @@ impl<'s> Solved<'s> {
                 open.push((case, depth + 1));
             }
         }
+        // A case without solutions says nothing; of a system that has none nothing is left out.
+        if found.len() > 1 {
+            found.retain(|case| case.contradiction_as_solved().is_none());
+        }
         found
     }
 
     /// The first equation that is left and is a product of several factors with jets.
     fn product(&self) -> Option<(usize, usize, Vec<Expr>)> {
-        let g = &self.space.graph;
         let groups = self.left.iter().enumerate();
         let mut all = groups.flat_map(|(k, group)| {
             let own = group.equations.iter().enumerate();
             own.map(move |(at, &e)| (k, at, e))
         });
         all.find_map(|(group, at, e)| {
-            let jets = self.space.jets_in(&[e]).into_iter();
-            let symbols: Vec<_> = jets
-                .filter_map(|jet| g.as_symbol(self.space.jet(jet.component, &jet.by)))
-                .collect();
-            let found: Vec<Expr> = match g.node(e) {
-                Node::Product { factors, .. } => {
-                    let own = factors.iter().copied();
-                    own.filter(|&factor| g.contains_any(factor, &symbols))
-                        .collect()
-                }
-                _ => {
-                    let own = chetaev_symbolic::factors::factors(g, e, &symbols)?;
-                    own.into_iter().map(|(factor, _)| factor).collect()
-                }
-            };
+            let found = self.factors_with_jets(e);
             (found.len() > 1).then_some((group, at, found))
         })
+    }
+
+    /// The factors of an expression in which jets occur.
+    fn factors_with_jets(&self, e: Expr) -> Vec<Expr> {
+        let g = &self.space.graph;
+        let jets = self.space.jets_in(&[e]).into_iter();
+        let jets = jets.filter(|jet| !self.space.is_curvature(jet.component));
+        let symbols: Vec<_> = jets
+            .filter_map(|jet| g.as_symbol(self.space.jet(jet.component, &jet.by)))
+            .collect();
+        match g.node(e) {
+            Node::Product { factors, .. } => {
+                let own = factors.iter().copied();
+                own.filter(|&factor| g.contains_any(factor, &symbols))
+                    .map(|factor| self.base(factor))
+                    .collect()
+            }
+            _ => {
+                let own = chetaev_symbolic::factors::factors(g, e, &symbols);
+                let own = own.into_iter().flatten().map(|(factor, _)| factor);
+                own.filter(|&factor| g.contains_any(factor, &symbols))
+                    .collect()
+            }
+        }
     }
 
     /// How many components of a tensor may be changed by any functions, all else being kept, so that expressions keep their values

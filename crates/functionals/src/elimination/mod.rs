@@ -12,6 +12,9 @@
 //! lead back to each other. Such a circle is cut where it closes: what is proved remains so, since a rule that is not used takes nothing
 //! away, but what is left over is no normal form, and nothing is refuted with it.
 //!
+//! A product that is left vanishes where one of its factors does, and on open sets that are dense together one factor does identically, so
+//! that each is a case of its own ([`Solved::cases`]). A factor that was divided by before is named among the pivots.
+//!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
@@ -359,13 +362,35 @@ impl<'s> Solved<'s> {
         found
     }
 
-    /// Whether expressions vanish where the equations hold.
+    /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.
     pub fn follows(&self, es: &[Expr]) -> bool {
-        es.iter().all(|&e| self.vanishes(self.normal(e)))
+        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.vanishes(own.normal(e)));
+        is_so(self) || !self.left.is_empty() && self.cases().iter().all(is_so)
     }
 
-    /// The same as a verdict, with a counterexample where one is found.
+    /// The same as a verdict, with a counterexample where one is found. Of equations that could not be solved no counterexample is sought.
     pub fn verdict(&self, e: Expr) -> Verdict {
+        let whole = self.verdict_as_solved(e);
+        if self.left.is_empty() || matches!(whole, Verdict::Proved(_)) {
+            return whole;
+        }
+        let mut all = Verdict::Proved(Proof::exact("", ""));
+        for case in self.cases() {
+            let own = case.verdict_as_solved(e);
+            match (&own, case.left.first()) {
+                (Verdict::Refuted(_), None) => return own,
+                (Verdict::Refuted(_), Some(left)) => {
+                    let why = format!("`{}` could not be solved for any field", left.label);
+                    all = all.and(Verdict::undecided(why));
+                }
+                _ => all = all.and(own),
+            }
+        }
+        all
+    }
+
+    /// The verdict with what is solved alone, whatever is left.
+    pub fn verdict_as_solved(&self, e: Expr) -> Verdict {
         let own = self.normal(e);
         match self.space.vanishing(&[own], false) {
             Verdict::Proved(proof) => Verdict::Proved(proof),

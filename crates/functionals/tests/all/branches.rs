@@ -1,6 +1,6 @@
 //! Roots and absolute values: what is true for one sign of what is under them is not called true.
 
-use crate::table::studied_text;
+use crate::table::{decided, studied_text};
 use chetaev_symbolic::Verdict;
 
 /// ∫ density over a line, with equations that are stated to follow; all are yielded.
@@ -117,4 +117,40 @@ fn a_product_vanishes_with_any_of_its_factors() {
 fn equations_that_nothing_satisfies_prove_nothing() {
     assert_eq!(verdict("u + v", &["1 = 2"]).word(), "not-applicable");
     assert_eq!(verdict("u + v^2", &["v = 0"]).word(), "refuted");
+}
+
+fn word(text: &str, claim: &str) -> (String, String) {
+    let study = studied_text("p4p", text, &[]);
+    let verdict = decided(&study, claim);
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+/// q (u - g) = 0 gives u = g where q does not vanish, and this is said: a string off the obstacle (q = 0) is stationary too.
+#[test]
+fn what_is_divided_by_with_fields_in_it_is_said() {
+    let text = "kind = \"functional\"\nname = \"obstacle\"\ndensity = \"1/2 u,x^2 - f u - 1/2 q^2 (u - g)\"\nyields = [\"a\", \"b\"]\n\
+         [domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\nq = \"scalar\"\n\
+         [data]\nf = \"scalar\"\ng = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"u\"] }\n\"x = 1\" = { fixed = [\"u\"] }\n\
+         [equations]\na = \"u,xx + f + q^2/2 = 0\"\nb = \"u = g\"\n";
+    let (word, detail) = word(text, "functional.euler");
+    assert!(
+        word != "proved" || detail.contains("may vanish elsewhere"),
+        "{word}: {detail}"
+    );
+}
+
+/// On a line u'' = 0 with E u' = P at the end is E u' = P everywhere.
+#[test]
+fn what_is_constant_and_holds_at_an_end_holds() {
+    let bar = |force: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"bar\"\ndensity = \"E/2 u,x^2\"\nyields = [\"a\"]\n\
+             [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n\
+             [parameters]\nE = {{}}\nP = {{}}\n[boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = \"-P u\"\n\
+             [equations]\na = \"E u,x = {force}\"\n"
+        )
+    };
+    let (right, detail) = word(&bar("P"), "functional.euler");
+    assert_eq!(right, "proved", "{detail}");
+    assert_eq!(word(&bar("2 P"), "functional.euler").0, "refuted");
 }

@@ -264,7 +264,34 @@ impl<'f> Comparison<'f> {
 
     fn equation(&self, equation: &Equation, where_holds: &Solved<'f>) -> Judged {
         let what = format!("the stated equation ({})", equation.label);
-        self.judge(what, &equation.residuals, where_holds)
+        let own = self.judge(what, &equation.residuals, where_holds);
+        match (&own.verdict, &equation.on) {
+            (Verdict::Refuted(_), None) if self.is_constant_and_zero(&equation.residuals) => {
+                Judged {
+                    verdict: Verdict::Proved(Proof::exact("", "")),
+                    open: Vec::new(),
+                    ..own
+                }
+            }
+            _ => own,
+        }
+    }
+
+    /// Whether expressions of one variable are constant where the Euler equations hold, and vanish at an end, so that they vanish everywhere.
+    fn is_constant_and_zero(&self, es: &[Expr]) -> bool {
+        let space = &*self.functional.space;
+        if space.coordinates.len() != 1 {
+            return false;
+        }
+        es.iter().all(|&e| {
+            let is_zero_on = |on: &OnPiece| {
+                let piece = self.functional.piece(&on.piece);
+                piece.is_some_and(|piece| self.derived_on(on, piece).follows(&[e]))
+            };
+            self.derived.follows(&[e])
+                || self.derived.follows(&[space.total(e, 0)])
+                    && self.variation.pieces.iter().any(is_zero_on)
+        })
     }
 
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
@@ -279,9 +306,9 @@ impl<'f> Comparison<'f> {
         let cases = if solved.left.is_empty() || is_proved {
             Vec::new()
         } else {
-            solved.alternatives()
+            solved.cases()
         };
-        if cases.len() < 2 {
+        if cases.is_empty() || cases.len() == 1 && cases[0].left.len() == solved.left.len() {
             let labels = solved.left.iter().filter(|_| !solved.is_circular());
             return Judged {
                 what,
@@ -405,6 +432,9 @@ impl<'f> Comparison<'f> {
                 .push_str("; curved pieces meet with a common tangent plane");
         }
         proof.detail = self.detail();
+        if !pivots.is_empty() {
+            proof.detail.push_str(&format!(", {}", solvable(&pivots)));
+        }
         for more in self.traces().into_iter().chain(self.undetermined()) {
             proof.detail.push_str(&format!(", {more}"));
         }
@@ -444,7 +474,7 @@ impl<'f> Comparison<'f> {
 fn of_all(es: &[Expr], solved: &Solved<'_>) -> Verdict {
     let mut verdict = Verdict::Proved(Proof::exact("", ""));
     for &e in es {
-        let own = solved.verdict(e);
+        let own = solved.verdict_as_solved(e);
         let is_proved = matches!(own, Verdict::Proved(_));
         verdict = verdict.and(own);
         if !is_proved {
@@ -470,15 +500,20 @@ pub(super) fn refuted(what: &str, found: Counterexample) -> Verdict {
     })
 }
 
+/// Where what depends on fields or the normal was divided by.
+fn solvable(pivots: &BTreeSet<String>) -> String {
+    let names: Vec<&str> = pivots.iter().map(String::as_str).collect();
+    format!(
+        "where the equations can be solved for {}: their coefficients depend on the fields, the normal or parameters, and may vanish elsewhere",
+        names.join(", ")
+    )
+}
+
 /// Where a proof holds.
 fn on(pivots: &BTreeSet<String>, inverted: &BTreeSet<String>) -> String {
     let mut place = String::from("all jets");
     if !pivots.is_empty() {
-        let names: Vec<&str> = pivots.iter().map(String::as_str).collect();
-        place.push_str(&format!(
-            " at which the equations can be solved for {}, whose coefficients depend on the fields, the normal or parameters",
-            names.join(", ")
-        ));
+        place.push_str(&format!(", {}", solvable(pivots)));
     }
     if !inverted.is_empty() {
         let names: Vec<&str> = inverted.iter().map(String::as_str).collect();
