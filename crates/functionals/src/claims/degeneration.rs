@@ -2,8 +2,8 @@
 
 use super::modulo::{equations, vanishing_difference, STATED};
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::{Functional, Relation, Role, Special, SpecialKind};
-use chetaev_symbolic::verdict::Proof;
+use crate::functional::{Functional, Piece, Relation, Role, Special, SpecialKind};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `functional.degeneration#NAME`.
@@ -134,6 +134,10 @@ impl Comparison<'_> {
                 let said = format!("`{}` has no piece {}", functional.name, piece.name);
                 return Verdict::undecided(said).into();
             };
+            if let (Some(said), false) = (given_otherwise(functional, own, piece), self.is_descent)
+            {
+                return Verdict::Refuted(said).into();
+            }
             places.push((Some(piece.name.as_str()), own.density, piece.density));
         }
         for (on, own, wanted) in places {
@@ -202,4 +206,28 @@ impl Comparison<'_> {
             other => other,
         }
     }
+}
+
+/// What is given on a piece by one functional only: then they have other variations there.
+fn given_otherwise(functional: &Functional, own: &Piece, other: &Piece) -> Option<Counterexample> {
+    let differs = |one: &Piece, two: &Piece| {
+        let mut fixed = one.fixed.iter();
+        fixed.find(|given| !two.fixed.contains(given)).copied()
+    };
+    let here = differs(own, other).map(|given| (given, "is given here, and not there"));
+    let there = || differs(other, own).map(|given| (given, "is given there, and not here"));
+    let ((component, is_slope), where_given) = here.or_else(there)?;
+    let name = functional.space.component_at(component).name;
+    let slope = if is_slope {
+        "the normal derivative of "
+    } else {
+        ""
+    };
+    let quantity = format!("{slope}{name} on {}", own.name);
+    Some(Counterexample {
+        point: Vec::new(),
+        residual: ("1".into(), "1".into()),
+        detail: format!("{quantity} {where_given}, so that the variations are others"),
+        quantity,
+    })
 }

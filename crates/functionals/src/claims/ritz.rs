@@ -2,9 +2,9 @@
 
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::Functional;
-use crate::ritz::{approximation, with_values, Approximation, Asked};
+use crate::ritz::{approximation, with_values, Approximation, Asked, Point};
 use crate::variation::Variation;
-use chetaev_symbolic::verdict::{Evidence, Proof};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::{rational, Expr, Verdict};
 
 /// `functional.ritz#NAME`.
@@ -26,7 +26,7 @@ impl Claim for Ritz {
         "W. Ritz (1909): in the place of all fields, polynomials are admitted that satisfy what is given on the faces of a box; the \
          functional is then a quadratic function of their coefficients, whose integrals are exact rational numbers, and its stationary \
          point is found by exact elimination. Where the polynomial satisfies the Euler equations and all natural conditions it is the solution: \
-         proved. Else its values are compared with those of a closed solution that [ritz] states: numerical, with the error for each degree."
+         proved, or refuted where the solution has other values than those that [ritz] states. Else its values are compared with those of a closed solution that [ritz] states: numerical, with the error for each degree."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -114,12 +114,9 @@ fn verdict(
     };
     let exact = residuals(functional, variation, asked, last);
     if exact.iter().all(|&e| space.vanish(&[e])) {
-        let differs = asked.points.iter().any(|point| {
-            let own = last.fields.iter().find(|(c, _)| *c == point.component);
-            point.is_exact && own.is_some_and(|(_, p)| p.exact(&point.at) != point.value)
-        });
-        if differs {
-            return Verdict::undecided("the polynomial is the solution, and has other values than those that [ritz] states");
+        let mut stated = asked.points.iter().filter(|point| point.is_exact);
+        if let Some(found) = stated.find_map(|point| otherwise(point, last)) {
+            return Verdict::Refuted(found);
         }
         return Verdict::Proved(Proof::exact(
             "the box with the stated numbers",
@@ -153,6 +150,22 @@ fn verdict(
             told.join(", ")
         )),
     }
+}
+
+/// A stated value that the solution does not have.
+fn otherwise(point: &Point, own: &Approximation) -> Option<Counterexample> {
+    let (_, polynomial) = own.fields.iter().find(|(c, _)| *c == point.component)?;
+    let value = polynomial.exact(&point.at);
+    let difference = format!("{:.9e}", rational::to_f64(&(&value - &point.value)));
+    (value != point.value).then(|| Counterexample {
+        point: Vec::new(),
+        quantity: point.written.clone(),
+        residual: (difference.clone(), difference),
+        detail: format!(
+            "the polynomial of degree {} is the solution, and its value {} is {value}, where {} is stated",
+            own.degree, point.written, point.value
+        ),
+    })
 }
 
 /// Euler expressions and natural conditions at the polynomial.

@@ -83,6 +83,13 @@ impl Reader<'_> {
                 _ => found.push((text.content.clone(), text.content.clone(), false)),
             }
         }
+        for (at, (name, ..)) in found.iter().enumerate() {
+            if found[..at].iter().any(|(before, ..)| before == name) {
+                let place = texts.get(at).map_or(raw.place, |text| text.place);
+                self.is_twice(name, place);
+                return None;
+            }
+        }
         if found.is_empty() || found.len() as i64 > MOST_DIMENSIONS {
             let message = format!(
                 "space has one to {MOST_DIMENSIONS} dimensions, not {}",

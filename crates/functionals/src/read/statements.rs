@@ -330,7 +330,15 @@ impl Reader<'_> {
             };
             let Some(tensor) = scope.tensors.get(name) else {
                 let message = format!("`{name}` is not a field");
-                self.push(Diagnostic::error("unknown-name", text.place, message));
+                let diagnostic = Diagnostic::error("unknown-name", text.place, message);
+                let of_field = name.split_once(',').map(|(field, _)| field);
+                let of_field = of_field.filter(|field| scope.tensors.contains_key(*field));
+                self.push(match of_field {
+                    Some(field) => diagnostic.hint(format!(
+                        "\"{field}\" gives its values, and with them the derivatives along the piece; \"{field},n\" the one along the normal"
+                    )),
+                    None => diagnostic,
+                });
                 continue;
             };
             let jets = scope.space.jets_in(&tensor.components);

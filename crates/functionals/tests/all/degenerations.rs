@@ -163,6 +163,14 @@ fn every_row_becomes_that_of_the_linear_theory() {
 }
 
 #[test]
+fn what_is_given_belongs_to_the_functional() {
+    let id = "functional.degeneration#small-displacements";
+    let (word, detail, _) = verdict("pp", id, &[("S_u = { fixed = [\"u\"] }", "S_u = \"0\"")]);
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("is given there, and not here"), "{detail}");
+}
+
+#[test]
 fn a_size_keeps_the_number_of_dimensions() {
     let text = row_text("p4p").replace("{ nonlinear = \"0\" }", "{ d = \"3\" }");
     let told = crate::table::read_text("p4p", &text, &[("d", "2")]);

@@ -68,8 +68,10 @@ fn ritz_finds_polynomial_solutions_exactly() {
         "value = \"(P l + F l^2/2)/E\"",
         "value = \"(P l + F l^2/3)/E\"",
     );
-    let (word, _) = verdict(&studied_text("p4p", &wrong, &[]), "functional.ritz");
-    assert_eq!(word, "undecided");
+    let (word, detail) = verdict(&studied_text("p4p", &wrong, &[]), "functional.ritz");
+    assert_eq!(word, "refuted");
+    // (P l + F l²/2)/E = (3/4 + 9/8)/2.
+    assert!(detail.contains("is 15/16"), "{detail}");
     // Minus the potential energy: −(P² l + P F l² + F² l³/3)/(2E) = −21/32, as in every row of the table (S-F13).
     let problem = loaded_text("p4p", &text("bar"), &[]);
     let own = approximation(&problem.functional, &problem.ritz.unwrap(), 2).unwrap();

@@ -175,6 +175,8 @@ fn mistakes_in_lists_and_numbers_are_shown() {
         ),
         ("l = \"1\"", "l = \"sqrt(-1)\"", "is no real number"),
         ("rho = {}", "rho = \"1/log(1)\"", "zero"),
+        ("[\"u\", \"u,n\"]", "[\"u\", \"u,x\"]", "\"u,n\" the one along the normal"),
+        ("coordinates = [\"x\"]", "coordinates = [\"x\", \"x\"]", "declared-twice"),
         ("l = \"1\"", "l = \"l\"", "`l`"),
         ("rho/2 u,t^2", "log(0) u,t^2", "`log(0)` is no real number"),
         (

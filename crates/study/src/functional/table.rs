@@ -78,30 +78,26 @@ pub(super) fn table(problem: &Problem) -> Option<Table> {
     })
 }
 
-/// What numbers in the table stand for where this functional does not state it so, with the members of the family that do.
+/// Numbers in the table that this functional does not state so, with the members of the family that do.
 fn others(problem: &Problem) -> String {
     let own = &problem.functional.equations;
     let is_own = |label: &str, statement: &str| {
         let mut all = own.iter();
         all.any(|e| e.label == label && e.statement() == statement)
     };
-    let mut found: BTreeMap<(u64, &str, &str), Vec<&str>> = BTreeMap::new();
+    let mut found: BTreeMap<(u64, &str), Vec<&str>> = BTreeMap::new();
     for member in &problem.family {
         for label in member.imposed.iter().chain(&member.yields) {
             let stated = member.equations.iter().find(|(key, _)| key == label);
-            if let Some((_, statement)) = stated.filter(|(_, own)| !is_own(label, own)) {
-                let key = (
-                    super::equations::number(label),
-                    label.as_str(),
-                    statement.as_str(),
-                );
+            if stated.is_some_and(|(_, statement)| !is_own(label, statement)) {
+                let key = (super::equations::number(label), label.as_str());
                 found.entry(key).or_default().push(&member.name);
             }
         }
     }
-    let told = found.into_iter().map(|((_, label, statement), names)| {
-        format!("; for {} ({label}) is {statement}", names.join(", "))
-    });
+    let told = found
+        .into_iter()
+        .map(|((_, label), names)| format!("; ({label}) of {} is stated there", names.join(", ")));
     told.collect()
 }
 
