@@ -69,7 +69,14 @@ const NOT_APPLICABLE: &[(&[&str], &[&str], &str)] = &[
         &["isokinetic-particle/model.toml"],
         "model.restricted-hessian-regular",
     ),
-    // J1: the weight of particles is a force, and the driven board has a torque.
+    // J1: the support of the pendulum shakes.
+    (
+        &["jacobi"],
+        &["kapitza-pendulum/model.toml"],
+        "model.lagrangian-autonomous",
+    ),
+    // J1: the weight of particles is a force, the sliding top and the governor are rubbed, and the driven board has a
+    // torque.
     (
         &["jacobi"],
         &[
@@ -81,6 +88,8 @@ const NOT_APPLICABLE: &[(&[&str], &[&str], &str)] = &[
             "rocket-on-appells-constraint/model.toml",
             "sand-cart/model.toml",
             "snakeboard/driven.toml",
+            "tippe-top/model.toml",
+            "watt-governor/model.toml",
         ],
         "model.forces-absent",
     ),

@@ -65,12 +65,21 @@ pub struct Solved<'s> {
     judged: RefCell<BTreeMap<Expr, bool>>,
     /// Equations that are left, with their labels.
     pub left: Vec<Group>,
-    /// Matrices that were inverted and depend on the fields: the tensors solved for.
-    pub pivots: Vec<String>,
+    /// Matrices that were inverted and are no numbers.
+    pub pivots: Vec<Pivot>,
     /// Functions undone by their conjugates.
     pub inverted: BTreeSet<String>,
     /// Expressions in parameters and data that were divided by.
     pub nonzero: BTreeSet<Expr>,
+}
+
+/// A matrix that has to be regular where equations are solved.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Pivot {
+    /// The tensor solved for.
+    pub tensor: String,
+    /// Whether fields or data occur in the matrix; else only parameters or the normal do.
+    pub has_fields: bool,
 }
 
 /// A jet with its value.

@@ -1,6 +1,6 @@
 //! Groups of equations solved one after the other: for which tensor, by which rows, and what is divided by.
 
-use super::{rest, Rule, Solved, MOST_ROUNDS};
+use super::{rest, Pivot, Rule, Solved, MOST_ROUNDS};
 use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
@@ -393,9 +393,8 @@ impl Solved<'_> {
         if !choice.is_constant {
             if let Some(jet) = choice.jets.first() {
                 let tensor = self.space.component_at(jet.component).tensor;
-                if !self.pivots.contains(&tensor) {
-                    self.pivots.push(tensor);
-                }
+                let has_fields = self.has_fields(&choice.matrix.concat());
+                self.note_pivot(Pivot { tensor, has_fields });
             }
         }
         for (jet, value) in choice.jets.into_iter().zip(values) {
@@ -473,6 +472,21 @@ impl Solved<'_> {
         None
     }
 
+    fn note_pivot(&mut self, pivot: Pivot) {
+        if !self.pivots.contains(&pivot) {
+            self.pivots.push(pivot);
+        }
+    }
+
+    /// Whether fields, data or functions of them occur; the curvature is none.
+    fn has_fields(&self, es: &[Expr]) -> bool {
+        let space = self.space;
+        let mut jets = space.jets_in(es).into_iter();
+        let symbols = space.graph.symbols_in(es);
+        jets.any(|jet| !space.is_curvature(jet.component))
+            || symbols.into_iter().any(|s| space.is_application(s))
+    }
+
     /// What must not vanish so that a matrix without fields is regular: the factors of its determinant in which something occurs that
     /// has no value. A large matrix is named by what was solved for.
     fn note_nonzero(&mut self, matrix: &[Vec<Expr>], component: Option<usize>) {
@@ -490,9 +504,11 @@ impl Solved<'_> {
         } else if size <= LARGEST_DETERMINANT {
             vec![determinant(g, matrix)]
         } else {
-            let tensor = component.map(|c| self.space.component_at(c).tensor);
-            if let Some(tensor) = tensor.filter(|tensor| !self.pivots.contains(tensor)) {
-                self.pivots.push(tensor);
+            if let Some(component) = component {
+                self.note_pivot(Pivot {
+                    tensor: self.space.component_at(component).tensor,
+                    has_fields: false,
+                });
             }
             return;
         };

@@ -4,7 +4,7 @@
 use super::defined::where_nonzero;
 use super::exceptional::holds_at_zero;
 use super::plane::Plane;
-use crate::elimination::{Group, Solved};
+use crate::elimination::{Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
 use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
@@ -36,7 +36,7 @@ pub(super) struct Judged {
     /// What could not be solved for.
     pub(super) open: Vec<String>,
     /// What was solved for where a coefficient does not vanish.
-    pivots: Vec<String>,
+    pivots: Vec<Pivot>,
 }
 
 impl<'f> Comparison<'f> {
@@ -99,7 +99,7 @@ impl<'f> Comparison<'f> {
     /// The verdict where all that is divided by does not vanish.
     pub(super) fn compared(&self) -> Verdict {
         let mut judged = Vec::new();
-        let mut pivots: BTreeSet<String> = BTreeSet::new();
+        let mut pivots: BTreeSet<Pivot> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
         for equation in self
             .functional
@@ -375,7 +375,7 @@ impl<'f> Comparison<'f> {
     fn joined(
         &self,
         judged: Vec<Judged>,
-        pivots: &BTreeSet<String>,
+        pivots: &BTreeSet<Pivot>,
         inverted: &BTreeSet<String>,
     ) -> Verdict {
         let mut all = Verdict::Proved(Proof::exact("", ""));
@@ -432,8 +432,17 @@ impl<'f> Comparison<'f> {
                 .push_str("; curved pieces meet with a common tangent plane");
         }
         proof.detail = self.detail();
-        if !pivots.is_empty() {
-            proof.detail.push_str(&format!(", {}", solvable(&pivots)));
+        let of_fields: BTreeSet<&str> = pivots
+            .iter()
+            .filter(|pivot| pivot.has_fields)
+            .map(|pivot| pivot.tensor.as_str())
+            .collect();
+        if !of_fields.is_empty() {
+            let names: Vec<&str> = of_fields.into_iter().collect();
+            proof.detail.push_str(&format!(
+                ", where the coefficients of {}, in which fields occur, are regular",
+                names.join(" and ")
+            ));
         }
         for more in self.traces().into_iter().chain(self.undetermined()) {
             proof.detail.push_str(&format!(", {more}"));
@@ -500,20 +509,16 @@ pub(super) fn refuted(what: &str, found: Counterexample) -> Verdict {
     })
 }
 
-/// Where what depends on fields or the normal was divided by.
-fn solvable(pivots: &BTreeSet<String>) -> String {
-    let names: Vec<&str> = pivots.iter().map(String::as_str).collect();
-    format!(
-        "where the equations can be solved for {}: their coefficients depend on the fields, the normal or parameters, and may vanish elsewhere",
-        names.join(", ")
-    )
-}
-
 /// Where a proof holds.
-fn on(pivots: &BTreeSet<String>, inverted: &BTreeSet<String>) -> String {
+fn on(pivots: &BTreeSet<Pivot>, inverted: &BTreeSet<String>) -> String {
     let mut place = String::from("all jets");
     if !pivots.is_empty() {
-        place.push_str(&format!(", {}", solvable(pivots)));
+        let names: BTreeSet<&str> = pivots.iter().map(|pivot| pivot.tensor.as_str()).collect();
+        let names: Vec<&str> = names.into_iter().collect();
+        place.push_str(&format!(
+            " at which the equations can be solved for {}, whose coefficients depend on the fields, the normal or parameters",
+            names.join(", ")
+        ));
     }
     if !inverted.is_empty() {
         let names: Vec<&str> = inverted.iter().map(String::as_str).collect();
