@@ -118,7 +118,7 @@ impl RateSeries {
         Ok(self.taylor.prepare(&self.parameters, &mut self.workspace)?)
     }
 
-    /// Writes z_[0], …, z_[order] through (t, z), one after the other.
+    /// Writes `z_[0], …, z_[order]` through (t, z), one after the other.
     ///
     /// # Errors
     /// Why the rates have no Taylor series there.
