@@ -547,7 +547,7 @@ class Trajectory(Result):
 
     def to_polars(self) -> Any:
         """A ``polars.DataFrame``."""
-        import polars as pl
+        import polars as pl  # pyright: ignore[reportMissingImports]
 
         return pl.DataFrame({name: self[name] for name in self.names})
 

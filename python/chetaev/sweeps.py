@@ -81,7 +81,7 @@ class Sweep(Result):
 
     def to_polars(self) -> Any:
         """A ``polars.DataFrame``, a row for each trajectory; samples are left out."""
-        import polars as pl
+        import polars as pl  # pyright: ignore[reportMissingImports]
 
         return pl.DataFrame({name: own for name, own in self._arrays.items() if own.ndim == 1})
 

@@ -1,7 +1,7 @@
 //! Compiled functions for callers that know C only: one address for all of them, and data that say which is meant.
 #![allow(unsafe_code)] // States and values come as pointers.
 
-use crate::compiled::{Program, Ready};
+use crate::program::{Program, Ready};
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError, RwLock};

@@ -12,6 +12,7 @@ mod linear;
 mod model;
 mod outcome;
 mod problem;
+mod program;
 mod sweep;
 mod texts;
 mod waiting;

@@ -1,9 +1,6 @@
 //! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
 //! and where pieces meet.
 
-use super::defined::where_nonzero;
-use super::exceptional::holds_at_zero;
-use super::plane::Plane;
 use crate::elimination::{Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
 use crate::variation::{Condition, OnPiece, Variation};
@@ -27,6 +24,12 @@ pub(super) struct Comparison<'f> {
     pub(super) nonzero: RefCell<BTreeSet<Expr>>,
     /// Whether a counterexample is looked for.
     pub(super) refutes: bool,
+}
+
+/// A functional with one plane piece of boundary, and its first variation.
+pub(super) struct Plane {
+    pub(super) functional: Functional,
+    pub(super) variation: Variation,
 }
 
 /// An equation that was compared.
@@ -79,21 +82,6 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: self.refutes,
         }
-    }
-
-    pub(super) fn verdict(&self) -> Verdict {
-        if let Some(refuted) = self.refuted_where_plane() {
-            return refuted;
-        }
-        let verdict = self.compared();
-        if !matches!(verdict, Verdict::Proved(_)) {
-            return verdict;
-        }
-        let found = self.nonzero.borrow();
-        let is_needed = |factor: &&Expr| !holds_at_zero(self.functional, **factor, &found);
-        let needed = found.iter().filter(is_needed);
-        let g = &self.functional.space.graph;
-        where_nonzero(verdict, &needed.map(|&factor| g.text(factor)).collect())
     }
 
     /// The verdict where all that is divided by does not vanish.

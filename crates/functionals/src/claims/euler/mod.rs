@@ -7,7 +7,8 @@ mod exceptional;
 mod plane;
 
 use self::comparison::Comparison;
-use self::defined::where_defined;
+use self::defined::{where_defined, where_nonzero};
+use self::exceptional::holds_at_zero;
 use self::plane::planes;
 use super::branches::{branches, Branch};
 use super::reduction::{reduced, restricted};
@@ -81,7 +82,19 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
         return Verdict::undecided(why);
     }
     let planes = planes(functional, &own);
-    Comparison::new(functional, &own, &planes, nonnegative).verdict()
+    let comparison = Comparison::new(functional, &own, &planes, nonnegative);
+    if let Some(refuted) = comparison.refuted_where_plane() {
+        return refuted;
+    }
+    let verdict = comparison.compared();
+    if !matches!(verdict, Verdict::Proved(_)) {
+        return verdict;
+    }
+    let found = comparison.nonzero.borrow();
+    let is_needed = |factor: &&Expr| !holds_at_zero(functional, **factor, &found);
+    let needed = found.iter().filter(is_needed);
+    let g = &functional.space.graph;
+    where_nonzero(verdict, &needed.map(|&factor| g.text(factor)).collect())
 }
 
 /// The verdicts on all branches in one: true on some only, it is true where these are.

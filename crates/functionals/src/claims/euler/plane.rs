@@ -3,17 +3,11 @@
 //! What is claimed of a functional is claimed of every domain, also of one that has a plane part of its boundary. There the normal is
 //! constant and the curvature vanishes, so that all is short, and what is false there is false.
 
-use super::comparison::{refuted, Comparison};
+use super::comparison::{refuted, Comparison, Plane};
 use crate::functional::{Functional, Piece, Side};
 use crate::read::on_side;
 use crate::variation::{variation, OnPiece, Variation};
 use chetaev_symbolic::Verdict;
-
-/// A functional with one plane piece of boundary, and its first variation.
-pub(super) struct Plane {
-    pub(super) functional: Functional,
-    pub(super) variation: Variation,
-}
 
 /// The curved pieces with second derivatives, each where it is plane: on others nothing becomes long.
 pub(super) fn planes(functional: &Functional, variation: &Variation) -> Vec<Plane> {
