@@ -11,7 +11,6 @@ import threading
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from chetaev import System
 
@@ -28,9 +27,12 @@ COUNT = 100_000 if os.environ.get("CHETAEV_TESTS") == "full" else 10_000
 
 
 def resident() -> float:
-    """Memory of this process in MB."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+    """Memory of this process in MB: as Linux tells it, elsewhere as `ps` does."""
+    told = Path("/proc/self/statm")
+    if told.exists():
+        return int(told.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+    kibibytes = subprocess.run(["ps", "-o", "rss=", "-p", str(os.getpid())], capture_output=True, text=True, check=True).stdout
+    return int(kibibytes) * 1.024e-3
 
 
 def used(number: int) -> None:
@@ -45,7 +47,6 @@ def used(number: int) -> None:
         system.derive("maggi").to_latex()
 
 
-@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the memory of a process is told by Linux")
 def test_systems_and_motions_leave_no_memory_behind() -> None:
     for number in range(COUNT // 5):
         used(number)
@@ -100,7 +101,5 @@ def test_subinterpreters_are_refused() -> None:
         """
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    if "ModuleNotFoundError" in done.stderr:
-        pytest.skip("this Python has no subinterpreters")
     assert done.returncode == 0, done.stderr
     assert "interpreter" in done.stdout

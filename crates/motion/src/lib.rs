@@ -41,7 +41,7 @@ pub mod scales;
 pub mod series;
 mod sticking;
 pub mod stop;
-mod turns;
+pub mod turns;
 pub mod watch;
 
 pub use double_double::{DoubleDouble, Precise, PreciseRows};

@@ -13,11 +13,11 @@ const HALF: f64 = 3.0;
 
 /// Which coordinates are angles of this kind.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Turns(Vec<bool>);
+pub struct Turns(Vec<bool>);
 
 impl Turns {
     /// Of the coordinates in the expressions.
-    pub(crate) fn of(g: &Graph, coordinates: &[Symbol], expressions: &[Expr]) -> Turns {
+    pub fn of(g: &Graph, coordinates: &[Symbol], expressions: &[Expr]) -> Turns {
         let (free, angles) = outside_angles(g, expressions);
         let whole = |argument: &Expr, symbol: Symbol| {
             let slope = g.diff(*argument, symbol);
@@ -33,6 +33,11 @@ impl Turns {
                 && own.all(|argument| whole(argument, symbol))
         };
         Turns(coordinates.iter().map(turns).collect())
+    }
+
+    /// Whether the coordinate at a place is an angle of this kind.
+    pub fn is_turning(&self, place: usize) -> bool {
+        self.0.get(place).copied().unwrap_or(false)
     }
 
     /// The state y + carry without whole turns of its angles, to the rounding of an angle of one turn.

@@ -3,6 +3,7 @@
 use crate::error::OrbitError;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
+use chetaev_motion::turns::Turns;
 use chetaev_motion::Binding;
 use chetaev_stability::reduction::{ClosedSystem, Speeds};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -271,44 +272,14 @@ fn values(system: &System, flow: &Flow) -> Result<Vec<(Symbol, f64)>, OrbitError
     }
 }
 
-/// Places at which a whole turn is tried.
-const TRIED: usize = 3;
-
-/// Coordinates that a whole turn more does not change the rates, at the places tried.
+/// Coordinates that a whole turn more does not change the rates.
 fn turning(system: &System, flow: &Flow) -> Vec<bool> {
-    let g = &flow.graph;
-    let somewhere = |place: usize, i: usize| 0.3 + 0.17 * ((7 * place + 3 * i) % 5) as f64;
-    let rates = |place: usize, turned: Option<usize>| {
-        let value = |s: Symbol| {
-            let variable = flow.variables.iter().position(|own| *own == s);
-            let parameter = flow.place(s).map(|at| flow.parameters[at].1);
-            let turn = |i| {
-                if turned == Some(i) {
-                    std::f64::consts::TAU
-                } else {
-                    0.0
-                }
-            };
-            variable
-                .map(|i| somewhere(place, i) + turn(i))
-                .or(parameter)
-                .or(Some(0.4))
-        };
-        g.evaluate_f64(&flow.rates, &value).ok()
-    };
-    let is_same = |place: usize, i: usize| match (rates(place, None), rates(place, Some(i))) {
-        (Some(a), Some(b)) => a
-            .iter()
-            .zip(&b)
-            .all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + a.abs())),
-        _ => false,
-    };
+    let turns = Turns::of(&flow.graph, &flow.variables, &flow.rates);
     let is_coordinate = |i: usize| {
         let mut all = system.coordinates.iter();
         all.any(|c| c.q_symbol == flow.variables[i])
     };
-    let occurs = |i: usize| g.any_contains_any(&flow.rates, &[flow.variables[i]]);
-    (0..flow.n())
-        .map(|i| is_coordinate(i) && occurs(i) && (0..TRIED).all(|place| is_same(place, i)))
+    let all = 0..flow.n();
+    all.map(|i| is_coordinate(i) && turns.is_turning(i))
         .collect()
 }

@@ -263,9 +263,10 @@ impl Equations for Shooting<'_> {
                 left.push((name.clone(), gradient));
             }
         }
-        let right: Vec<Named> = match self.is_forced {
-            true => Vec::new(),
-            false => vec![("the direction along the orbit".to_owned(), rates)],
+        let right: Vec<Named> = if self.is_forced {
+            Vec::new()
+        } else {
+            vec![("the direction along the orbit".to_owned(), rates)]
         };
         let mut found = split(&monodromy, &left, &right)?;
         let of_integrals = found

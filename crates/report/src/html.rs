@@ -81,7 +81,7 @@ impl Write for Escaping<'_> {
 }
 
 /// Text escaped for use between tags.
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let _ = Escaping(&mut out).write_str(text);
     out

@@ -33,6 +33,7 @@ mod thinning;
 mod words;
 
 pub use data::Report;
+pub use html::escaped;
 pub use words::Language;
 
 /// The page in English.

@@ -19,7 +19,7 @@ impl<'s> Solved<'s> {
             let (group, at, _) = self.product()?;
             let left = &self.left[group];
             let own = (left.label.clone(), left.equations[at]);
-            self.cases().is_empty().then_some(own)
+            self.cases()?.is_empty().then_some(own)
         })
     }
 
@@ -98,8 +98,9 @@ impl<'s> Solved<'s> {
     }
 
     /// The cases of which one holds wherever the equations do: one for each factor of an equation that is left and is a product, without
-    /// those in which nothing holds.
-    pub fn cases(&self) -> Vec<Solved<'s>> {
+    /// those in which nothing holds; `None` where no equation that is left is a product.
+    pub fn cases(&self) -> Option<Vec<Solved<'s>>> {
+        self.product()?;
         let mut found = Vec::new();
         let mut open = vec![(self.clone(), 0)];
         while let Some((own, depth)) = open.pop() {
@@ -117,11 +118,8 @@ impl<'s> Solved<'s> {
                 open.push((case, depth + 1));
             }
         }
-        // A case without solutions says nothing; of a system that has none nothing is left out.
-        if found.len() > 1 {
-            found.retain(|case| case.contradiction_as_solved().is_none());
-        }
-        found
+        found.retain(|case| case.contradiction_as_solved().is_none());
+        Some(found)
     }
 
     /// The first equation that is left and is a product of several factors with jets.

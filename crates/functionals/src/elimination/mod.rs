@@ -374,28 +374,38 @@ impl<'s> Solved<'s> {
     /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.
     pub fn follows(&self, es: &[Expr]) -> bool {
         let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.vanishes(own.normal(e)));
-        is_so(self) || !self.left.is_empty() && self.cases().iter().all(is_so)
+        is_so(self) || self.cases().is_some_and(|all| all.iter().all(is_so))
     }
 
     /// The same as a verdict, with a counterexample where one is found. Of equations that could not be solved no counterexample is sought.
     pub fn verdict(&self, e: Expr) -> Verdict {
         let whole = self.verdict_as_solved(e);
-        if self.left.is_empty() || matches!(whole, Verdict::Proved(_)) {
+        if matches!(whole, Verdict::Proved(_)) {
             return whole;
         }
+        let Some(cases) = self.cases() else {
+            return self.without_refutation(whole);
+        };
         let mut all = Verdict::Proved(Proof::exact("", ""));
-        for case in self.cases() {
-            let own = case.verdict_as_solved(e);
-            match (&own, case.left.first()) {
-                (Verdict::Refuted(_), None) => return own,
-                (Verdict::Refuted(_), Some(left)) => {
-                    let why = format!("`{}` could not be solved for any field", left.label);
-                    all = all.and(Verdict::undecided(why));
-                }
-                _ => all = all.and(own),
+        for case in cases {
+            let own = case.without_refutation(case.verdict_as_solved(e));
+            if matches!(own, Verdict::Refuted(_)) {
+                return own;
             }
+            all = all.and(own);
         }
         all
+    }
+
+    /// A verdict, but that nothing is refuted while an equation is left that could not be solved.
+    fn without_refutation(&self, verdict: Verdict) -> Verdict {
+        match (&verdict, self.left.first()) {
+            (Verdict::Refuted(_), Some(left)) => Verdict::undecided(format!(
+                "`{}` could not be solved for any field",
+                left.label
+            )),
+            _ => verdict,
+        }
     }
 
     /// The verdict with what is solved alone, whatever is left.

@@ -272,10 +272,12 @@ impl Solved<'_> {
             .map(|&r| columns.iter().map(|&c| matrix[r][c]).collect())
             .collect();
         let are_numbers = matrix.iter().flatten().all(|&e| g.as_number(e).is_some());
-        let effort = match are_numbers {
-            true => 0,
-            false if self.recognized(&matrix, &rest).is_some() => 1,
-            false => 2,
+        let effort = if are_numbers {
+            0
+        } else if self.recognized(&matrix, &rest).is_some() {
+            1
+        } else {
+            2
         };
         let cost = (class, is_other, is_open, effort, group);
         if cost >= least {

@@ -164,9 +164,10 @@ impl Reader<'_> {
             });
             special.push((name.clone(), text));
         }
-        let own = match special.is_empty() {
-            true => None,
-            false => Some(Box::new(self.with_sizes(special, (model, functional))?)),
+        let own = if special.is_empty() {
+            None
+        } else {
+            Some(Box::new(self.with_sizes(special, (model, functional))?))
         };
         let of = own.as_deref().unwrap_or(functional);
         for (name, raw) in rest {

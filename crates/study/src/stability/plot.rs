@@ -2,6 +2,7 @@
 
 use super::map::{StabilityMap, SIDE};
 use super::{Range, Stability};
+use chetaev_report::escaped;
 use chetaev_stability::question::Place;
 use std::fmt::Write as _;
 
@@ -75,10 +76,6 @@ fn marks((low, high): (f64, f64)) -> Vec<f64> {
     // Decimal as they are printed.
     let decimal = |i: i64| format!("{:.10}", i as f64 * step).parse().unwrap_or(0.0);
     (first..=last).map(decimal).collect()
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 impl Stability {

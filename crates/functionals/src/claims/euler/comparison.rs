@@ -285,18 +285,16 @@ impl<'f> Comparison<'f> {
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
         let divided = solved.nonzero.iter().cloned();
         self.nonzero.borrow_mut().extend(divided);
-        let whole = match self.refutes {
-            true => of_all(es, solved),
-            false if solved.follows(es) => Verdict::Proved(Proof::exact("", "")),
-            false => Verdict::undecided(""),
-        };
-        let is_proved = !self.refutes || matches!(whole, Verdict::Proved(_));
-        let cases = if solved.left.is_empty() || is_proved {
-            Vec::new()
+        let whole = if self.refutes {
+            of_all(es, solved)
+        } else if solved.follows(es) {
+            Verdict::Proved(Proof::exact("", ""))
         } else {
-            solved.cases()
+            Verdict::undecided("")
         };
-        if cases.is_empty() || cases.len() == 1 && cases[0].left.len() == solved.left.len() {
+        let is_decided = !self.refutes || matches!(whole, Verdict::Proved(_));
+        let cases = (!is_decided).then(|| solved.cases()).flatten();
+        let Some(cases) = cases.filter(|all| !all.is_empty()) else {
             let labels = solved.left.iter().filter(|_| !solved.is_circular());
             return Judged {
                 what,
@@ -304,7 +302,7 @@ impl<'f> Comparison<'f> {
                 open: labels.map(|group| format!("`{}`", group.label)).collect(),
                 pivots: Vec::new(),
             };
-        }
+        };
         let mut all = Verdict::Proved(Proof::exact("", ""));
         let mut open = Vec::new();
         let mut pivots = Vec::new();

@@ -1,14 +1,14 @@
 //! `functional.euler`: stationarity is equivalent to the stated equations.
 
 mod comparison;
-mod defined;
-mod described;
-mod exceptional;
+mod conditions;
+mod exceptions;
 mod plane;
+mod remarks;
 
 use self::comparison::Comparison;
-use self::defined::{where_defined, where_nonzero};
-use self::exceptional::holds_at_zero;
+use self::conditions::{where_defined, where_nonzero};
+use self::exceptions::holds_at_zero;
 use self::plane::planes;
 use super::branches::{branches, Branch};
 use super::reduction::{reduced, restricted};
