@@ -9,8 +9,6 @@
 use crate::space::Space;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
 
 impl Space {
@@ -138,7 +136,6 @@ impl Space {
         let Some(hessian) = (0..slots.len()).map(row).collect::<Option<Vec<_>>>() else {
             return false;
         };
-        let assumptions = Assumptions::new();
         let is_positive = |factor: i64| {
             (1..=slots.len()).all(|n| {
                 let minor: Vec<Vec<Expr>> = hessian[..n]
@@ -148,7 +145,7 @@ impl Space {
                         own.map(|&e| g.mul(&[g.integer(factor), e])).collect()
                     })
                     .collect();
-                known_sign(g, determinant(g, &minor), &assumptions).is_positive()
+                self.sign(determinant(g, &minor)).is_positive()
             })
         };
         is_positive(1) || is_positive(-1)
@@ -157,7 +154,6 @@ impl Space {
     /// Whether an expression is defined and smooth for all real values of its symbols, as far as its structure tells.
     fn is_smooth_everywhere(&self, e: Expr) -> bool {
         let g = &self.graph;
-        let assumptions = Assumptions::new();
         let mut open = vec![e];
         while let Some(e) = open.pop() {
             let is_smooth = match g.node(e) {
@@ -175,7 +171,7 @@ impl Space {
                     open.extend([*base, *exponent]);
                     let power = g.as_number(*exponent).and_then(rational::to_i64);
                     power.is_some_and(|n| n >= 0)
-                        || known_sign(g, *base, &assumptions).is_positive()
+                        || self.sign(*base).is_positive()
                 }
                 Node::Apply {
                     function,

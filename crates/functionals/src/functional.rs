@@ -192,6 +192,8 @@ pub struct Functional {
     pub functions: Vec<Constitutive>,
     /// Definitions.
     pub definitions: Vec<Definition>,
+    /// What is assumed of fields, data and parameters, as written.
+    pub assumptions: Vec<String>,
     /// The density.
     pub density: Expr,
     /// The density in index notation.
@@ -354,8 +356,10 @@ pub struct Solution {
     pub values: Vec<Special>,
     /// The box.
     pub intervals: Vec<Interval>,
-    /// Where the pieces of the boundary lie on it.
+    /// Where the pieces of the boundary lie on it: each with every face that it is.
     pub pieces: Vec<(String, Side)>,
+    /// Whether that is stated for the solution itself.
+    pub has_pieces: bool,
     /// The value of the functional, as written and as an expression.
     pub value: Option<(String, Expr)>,
 }

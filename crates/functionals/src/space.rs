@@ -4,8 +4,8 @@
 //! too, which is differentiated by the chain rule through its own derivatives; a function and its Legendre conjugate undo each
 //! other wherever one is applied to the gradient of the other. Both are exact, so that what is proved holds for every energy.
 
-use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
-use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
+use chetaev_symbolic::zero::assumptions::{Assumption, Assumptions, Relation, SignSet};
+use chetaev_symbolic::zero::{decide_zero, known_sign, Options, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -97,6 +97,8 @@ pub struct Space {
     /// The normal, and the distance from the boundary, inwards negative.
     normal: Vec<Symbol>,
     distance: Symbol,
+    /// What is assumed of fields, data and parameters.
+    assumptions: RefCell<Assumptions>,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -141,6 +143,7 @@ impl Space {
             applications: RefCell::default(),
             known: RefCell::default(),
             conjugations: RefCell::default(),
+            assumptions: RefCell::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }
@@ -319,6 +322,24 @@ impl Space {
             .borrow()
             .iter()
             .position(|own| own.name == name)
+    }
+
+    /// Assumes a comparison of fields, data and parameters.
+    pub fn assume(&self, own: Assumption) {
+        let mut all = self.assumptions.borrow_mut();
+        if !all.list().contains(&own) {
+            all.assume(own.left, own.relation, own.right);
+        }
+    }
+
+    /// What is assumed.
+    pub fn assumptions(&self) -> Assumptions {
+        self.assumptions.borrow().clone()
+    }
+
+    /// The signs that an expression can have where what is assumed holds, as far as its structure tells.
+    pub fn sign(&self, e: Expr) -> SignSet {
+        known_sign(&self.graph, e, &self.assumptions.borrow())
     }
 
     /// Gives arguments a name for reading.
@@ -500,7 +521,7 @@ impl Space {
     /// The same where other expressions are not negative.
     pub fn vanishing_where(&self, residuals: &[Expr], refute: bool, known: &[Expr]) -> Verdict {
         let g = &self.graph;
-        let mut assumptions = Assumptions::new();
+        let mut assumptions = self.assumptions();
         for &e in known {
             assumptions.assume(self.on_sphere(e), Relation::GreaterOrEqual, g.zero());
         }

@@ -2,9 +2,13 @@
 
 use crate::notation::{free_letters, Atom, Index, Kind, Names, Node};
 use crate::space::{pairs, Space};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{Expr, Function};
 use std::collections::BTreeMap;
 use std::rc::Rc;
+
+/// The function of a tensor of rank two that every functional knows.
+pub const DETERMINANT: &str = "det";
 
 /// What kind of tensor a field, data or a parameter is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,6 +158,9 @@ impl Names for Scope {
     }
 
     fn function(&self, name: &str) -> Option<usize> {
+        if name == DETERMINANT {
+            return Some(2);
+        }
         let at = self.space.function_named(name)?;
         Some(self.space.function_at(at).rank)
     }
@@ -335,8 +342,25 @@ impl Scope {
             .collect()
     }
 
+    /// The determinant of a tensor of rank two, which need not be symmetric.
+    fn determinant(&self, argument: &Node) -> Expr {
+        let d = self.space.dimensions();
+        let rows = match &argument.kind {
+            Kind::Atom(atom) if atom.indices.is_empty() => tuples(2, d)
+                .iter()
+                .filter_map(|slot| self.named(&atom.name, slot))
+                .collect(),
+            _ => self.components(argument, &free_letters(argument)),
+        };
+        let rows: Vec<Vec<Expr>> = rows.chunks(d).map(<[Expr]>::to_vec).collect();
+        determinant(&self.space.graph, &rows)
+    }
+
     fn application(&self, atom: &Atom, argument: &Node, indices: &[usize]) -> Expr {
         let g = &self.space.graph;
+        if atom.name == DETERMINANT {
+            return self.determinant(argument);
+        }
         let Some(function) = self.space.function_named(&atom.name) else {
             return g.zero();
         };

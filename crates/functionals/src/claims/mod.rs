@@ -23,6 +23,7 @@ use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
 use chetaev_model::decision::Found;
 use chetaev_symbolic::print::Format;
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::RefCell;
 
@@ -149,15 +150,47 @@ pub trait Claim: Sync {
 
 /// Decides a claim: where it speaks of admitted fields, for those that there are.
 pub(crate) fn decided(claim: &dyn Claim, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-    if !claim.is_of_fields() {
-        return claim.decide(cx, subject);
-    }
-    if cx.admission.none.is_some() {
+    let is_of_none = claim.is_of_fields() && cx.admission.none.is_some();
+    if is_of_none {
         return cx.admission.applied(Verdict::undecided("")).into();
     }
     let Finding { verdict, formulas } = claim.decide(cx, subject);
-    let verdict = cx.admission.applied(verdict);
+    let verdict = if claim.is_of_fields() {
+        cx.admission.applied(verdict)
+    } else {
+        verdict
+    };
+    let verdict = under(&cx.functional().assumptions, verdict);
     Finding { verdict, formulas }
+}
+
+/// A proof names what the model assumes.
+fn under(assumptions: &[String], verdict: Verdict) -> Verdict {
+    if assumptions.is_empty() {
+        return verdict;
+    }
+    let said = format!("assuming {}", assumptions.join(" and "));
+    let with = |mut proof: Proof| {
+        proof.on = if proof.on.is_empty() {
+            said.clone()
+        } else {
+            format!("{}, {said}", proof.on)
+        };
+        proof
+    };
+    match verdict {
+        Verdict::Proved(proof) => Verdict::Proved(with(proof)),
+        Verdict::Conditional {
+            condition,
+            proof,
+            counterexample,
+        } => Verdict::Conditional {
+            condition,
+            proof: with(proof),
+            counterexample,
+        },
+        other => other,
+    }
 }
 
 /// All claims about functionals, in the order of the catalogue.

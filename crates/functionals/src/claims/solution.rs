@@ -174,32 +174,37 @@ impl Inserted<'_> {
         own.filter(|s| wanted(s)).cloned().collect()
     }
 
-    fn side(&self, piece: &str) -> Option<&Side> {
+    /// The faces of the box that a piece is.
+    fn sides<'s>(&'s self, piece: &'s str) -> impl Iterator<Item = &'s Side> + 's {
         let own = self.solution.pieces.iter();
-        own.clone()
-            .find(|(name, _)| name == piece)
+        own.filter(move |(name, _)| name == piece)
             .map(|(_, side)| side)
     }
 
-    /// An expression on a piece: the normal, and the variable that is constant there.
-    fn on(&self, piece: &str, e: Expr) -> Option<Expr> {
-        let space = &*self.functional.space;
-        let side = self.side(piece)?;
-        let e = on_side(&self.functional.scope, side, e);
+    /// An expression on each face of a piece: the normal, and the variable that is constant there.
+    fn on(&self, piece: &str, e: Expr) -> Vec<Expr> {
+        let own = self.sides(piece);
+        own.filter_map(|side| self.on_face(side, e)).collect()
+    }
+
+    fn on_face(&self, side: &Side, e: Expr) -> Option<Expr> {
         let Side::Flat { axis, at, .. } = side else {
             return None;
         };
-        let own = self.at(e);
-        Some(
-            space
-                .graph
-                .substitute(own, &[(space.coordinates.get(*axis)?.expr, *at)]),
-        )
+        let space = &*self.functional.space;
+        let own = self.at(on_side(&self.functional.scope, side, e));
+        let place = space.coordinates.get(*axis)?.expr;
+        Some(space.graph.substitute(own, &[(place, *at)]))
     }
 
     /// A piece with conditions whose place is not stated.
     fn unplaced(&self, variation: &Variation) -> Option<String> {
-        let is_placed = |name: &str| matches!(self.side(name), Some(Side::Flat { .. }));
+        let is_placed = |name: &str| {
+            let own = self.functional.piece(name);
+            let is_known = self.solution.has_pieces
+                || own.is_some_and(|piece| matches!(piece.side, Side::Flat { .. }));
+            is_known && self.sides(name).all(|side| matches!(side, Side::Flat { .. }))
+        };
         let imposed = self.functional.with_role(Role::Imposed);
         let imposed = imposed.filter_map(|e| e.on.clone());
         let imposed = imposed.flat_map(|on| {
@@ -215,15 +220,28 @@ impl Inserted<'_> {
         all.find(|name| !is_placed(name))
     }
 
-    /// An expression where two faces meet.
-    fn meeting(&self, (one, other): (&str, &str), e: Expr) -> Option<Expr> {
+    /// An expression wherever a face of one piece meets one of another.
+    fn meeting(&self, (one, other): (&str, &str), e: Expr) -> Vec<Expr> {
         let space = &*self.functional.space;
-        let own = self.on(one, e)?;
-        let Some(Side::Flat { axis, at, .. }) = self.side(other) else {
-            return None;
+        let axis_of = |side: &Side| match side {
+            Side::Flat { axis, at, .. } => Some((*axis, *at)),
+            Side::Curved => None,
         };
-        let place = space.coordinates.get(*axis)?.expr;
-        Some(space.graph.substitute(own, &[(place, *at)]))
+        let mut found = Vec::new();
+        for (side, second) in self
+            .sides(one)
+            .flat_map(|side| self.sides(other).map(move |second| (side, second)))
+        {
+            let (Some((axis, _)), Some((across, at))) = (axis_of(side), axis_of(second)) else {
+                continue;
+            };
+            let place = space.coordinates.get(across).map(|c| c.expr);
+            let own = self.on_face(side, e);
+            if let (Some(own), Some(place), true) = (own, place, axis != across) {
+                found.push(space.graph.substitute(own, &[(place, at)]));
+            }
+        }
+        found
     }
 
     /// What must vanish.
@@ -234,13 +252,13 @@ impl Inserted<'_> {
             let what = format!("the imposed equation ({})", equation.label);
             for &e in &equation.residuals {
                 let own = match &equation.on {
-                    None => Some(self.at(e)),
+                    None => vec![self.at(e)],
                     Some(on) => match on.split_once(',') {
                         Some((one, other)) => self.meeting((one.trim(), other.trim()), e),
                         None => self.on(on, e),
                     },
                 };
-                found.extend(own.map(|e| (what.clone(), e)));
+                found.extend(own.into_iter().map(|e| (what.clone(), e)));
             }
         }
         for &(component, value) in &variation.euler {
@@ -251,16 +269,16 @@ impl Inserted<'_> {
             for condition in &on.conditions {
                 let name = space.component_at(condition.component).name;
                 let what = format!("the natural condition of {name} on {}", on.piece);
-                let own = self.on(&on.piece, condition.value);
-                found.extend(own.map(|e| (what, e)));
+                let own = self.on(&on.piece, condition.value).into_iter();
+                found.extend(own.map(|e| (what.clone(), e)));
             }
         }
         for corner in &variation.corners {
             let (one, other) = (corner.pieces.0.as_str(), corner.pieces.1.as_str());
             let name = space.component_at(corner.component).name;
             let what = format!("the condition of {name} where {one} and {other} meet");
-            let own = self.meeting((one, other), corner.value);
-            found.extend(own.map(|e| (what, e)));
+            let own = self.meeting((one, other), corner.value).into_iter();
+            found.extend(own.map(|e| (what.clone(), e)));
         }
         found
     }
@@ -273,9 +291,10 @@ impl Inserted<'_> {
             &self.solution.intervals,
         )?];
         for piece in &self.functional.pieces {
-            let side = self.side(&piece.name)?;
-            let own = self.at(on_side(&self.functional.scope, side, piece.density));
-            terms.push(over_face(space, own, side, &self.solution.intervals)?);
+            for side in self.sides(&piece.name) {
+                let own = self.at(on_side(&self.functional.scope, side, piece.density));
+                terms.push(over_face(space, own, side, &self.solution.intervals)?);
+            }
         }
         Some(space.graph.add(&terms))
     }
@@ -400,15 +419,18 @@ impl Inserted<'_> {
         let inside = self.change(self.functional.density, ansatz);
         let mut terms = vec![over_box(space, inside, &self.solution.intervals)?];
         for piece in &self.functional.pieces {
-            terms.push(self.change_on(&piece.name, piece.density, ansatz)?);
+            terms.extend(self.change_on(&piece.name, piece.density, ansatz)?);
         }
         Some(space.graph.add(&terms))
     }
 
-    fn change_on(&self, piece: &str, e: Expr, ansatz: &[(usize, Vec<Expr>)]) -> Option<Expr> {
-        let side = self.side(piece)?;
-        let own = self.change(on_side(&self.functional.scope, side, e), ansatz);
-        over_face(&self.functional.space, own, side, &self.solution.intervals)
+    /// The same over each face of a piece.
+    fn change_on(&self, piece: &str, e: Expr, ansatz: &[(usize, Vec<Expr>)]) -> Option<Vec<Expr>> {
+        let over = |side: &Side| {
+            let own = self.change(on_side(&self.functional.scope, side, e), ansatz);
+            over_face(&self.functional.space, own, side, &self.solution.intervals)
+        };
+        self.sides(piece).map(over).collect()
     }
 
     /// What keeps the imposed equations to the first order, and what is given on a piece.
@@ -419,14 +441,14 @@ impl Inserted<'_> {
             for &e in &equation.residuals {
                 match &equation.on {
                     None => found.extend(coefficients(space, self.change(e, ansatz), 0)?),
-                    Some(piece) => found.push(self.change_on(piece, e, ansatz)?),
+                    Some(piece) => found.extend(self.change_on(piece, e, ansatz)?),
                 }
             }
         }
         for piece in &self.functional.pieces {
             for &(component, is_normal) in &piece.fixed {
                 let by: &[usize] = if is_normal { &[0] } else { &[] };
-                found.push(self.change_on(&piece.name, space.jet(component, by), ansatz)?);
+                found.extend(self.change_on(&piece.name, space.jet(component, by), ansatz)?);
             }
         }
         Some(found)

@@ -3,8 +3,6 @@
 use super::Solved;
 use crate::functional::Side;
 use crate::space::Jet;
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Node, Verdict};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -44,7 +42,7 @@ impl<'s> Solved<'s> {
         let space = self.space;
         let g = &space.graph;
         let e = self.placed(space.explicit(e));
-        if known_sign(g, e, &Assumptions::new()).is_nonzero() {
+        if space.sign(e).is_nonzero() {
             return true;
         }
         let is_place = |symbol| {
@@ -135,28 +133,37 @@ impl<'s> Solved<'s> {
         })
     }
 
-    /// The factors of an expression in which jets occur.
+    /// The factors of an expression in which jets occur, without those that are known to vanish nowhere.
     fn factors_with_jets(&self, e: Expr) -> Vec<Expr> {
-        let g = &self.space.graph;
-        let jets = self.space.jets_in(&[e]).into_iter();
-        let jets = jets.filter(|jet| !self.space.is_curvature(jet.component));
-        let symbols: Vec<_> = jets
-            .filter_map(|jet| g.as_symbol(self.space.jet(jet.component, &jet.by)))
-            .collect();
-        match g.node(e) {
-            Node::Product { factors, .. } => {
-                let own = factors.iter().copied();
-                own.filter(|&factor| g.contains_any(factor, &symbols))
-                    .map(|factor| self.base(factor))
-                    .collect()
-            }
-            _ => {
-                let own = chetaev_symbolic::factors::factors(g, e, &symbols);
-                let own = own.into_iter().flatten().map(|(factor, _)| factor);
-                own.filter(|&factor| g.contains_any(factor, &symbols))
-                    .collect()
-            }
+        let space = self.space;
+        let has_jets = |&factor: &Expr| {
+            let mut jets = space.jets_in(&[factor]).into_iter();
+            jets.any(|jet| !space.is_curvature(jet.component)) && !space.sign(factor).is_nonzero()
+        };
+        self.factors(e).into_iter().filter(has_jets).collect()
+    }
+
+    /// The factors of an expression, without numbers and powers: it vanishes where one of them does.
+    pub(super) fn factors(&self, e: Expr) -> Vec<Expr> {
+        if let Some(known) = self.factors.borrow().get(&e) {
+            return known.clone();
         }
+        let g = &self.space.graph;
+        let found = match g.node(e) {
+            Node::Product { factors, .. } => factors.iter().map(|&f| self.base(f)).collect(),
+            _ => {
+                let symbols = g.symbols_in(&[e]);
+                let own = chetaev_symbolic::factors::factors(g, e, &symbols);
+                own.map_or(vec![e], |all| all.into_iter().map(|(f, _)| f).collect())
+            }
+        };
+        self.factors.borrow_mut().insert(e, found.clone());
+        found
+    }
+
+    /// Whether an equation is a product, so that it is no equation for what stands in one of the factors.
+    pub(super) fn is_product(&self, e: Expr) -> bool {
+        self.factors_with_jets(e).len() > 1
     }
 
     /// How many components of a tensor may be changed by any functions, all else being kept, so that expressions keep their values

@@ -12,8 +12,8 @@
 //! lead back to each other. Such a circle is cut where it closes: what is proved remains so, since a rule that is not used takes nothing
 //! away, but what is left over is no normal form, and nothing is refuted with it.
 //!
-//! A product that is left vanishes where one of its factors does, and on open sets that are dense together one factor does identically, so
-//! that each is a case of its own ([`Solved::cases`]). A factor that was divided by before is named among the pivots.
+//! A product is not solved: it vanishes where one of its factors does, and on open sets that are dense together one factor does
+//! identically, so that each is a case of its own ([`Solved::cases`]).
 //!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
@@ -63,6 +63,8 @@ pub struct Solved<'s> {
     /// Whether rules led back to each other.
     is_circular: Cell<bool>,
     judged: RefCell<BTreeMap<Expr, bool>>,
+    /// The factors of equations.
+    factors: RefCell<BTreeMap<Expr, Vec<Expr>>>,
     /// Equations that are left, with their labels.
     pub left: Vec<Group>,
     /// Matrices that were inverted and are no numbers.
@@ -142,6 +144,7 @@ impl<'s> Solved<'s> {
             open: RefCell::default(),
             is_circular: Cell::new(false),
             judged: RefCell::default(),
+            factors: RefCell::default(),
             left: Vec::new(),
             pivots: Vec::new(),
             inverted: BTreeSet::new(),

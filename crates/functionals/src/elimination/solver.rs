@@ -4,8 +4,7 @@ use super::{rest, Pivot, Rule, Solved, MOST_ROUNDS};
 use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
+use chetaev_symbolic::zero::{generic_rank, Options, Pivots, RankTest};
 use chetaev_symbolic::{rational, Expr, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -114,14 +113,13 @@ impl Solved<'_> {
         let Node::Sum { constant, terms } = g.node(e) else {
             return vec![e];
         };
-        let assumptions = Assumptions::new();
         let parts = terms
             .iter()
             .map(|(term, coefficient)| g.mul(&[g.number(coefficient.clone()), *term]));
         let parts: Vec<Expr> = parts.collect();
         let signs: Vec<_> = parts
             .iter()
-            .map(|&part| known_sign(g, part, &assumptions))
+            .map(|&part| self.space.sign(part))
             .collect();
         let is_split = constant.is_zero()
             && (signs.iter().all(|sign| sign.is_nonnegative())
@@ -136,17 +134,30 @@ impl Solved<'_> {
     /// An equation without factors that never vanish, and without positive powers, which vanish where what they are of does.
     fn stripped(&self, e: Expr) -> Expr {
         let g = &self.space.graph;
-        let Node::Product { factors, .. } = g.node(e) else {
+        let is_product = matches!(g.node(e), Node::Product { .. });
+        if !is_product && !self.may_have_assumed_factors(e) {
             return self.base(e);
-        };
-        let assumptions = Assumptions::new();
-        let vanishes = |&&factor: &&Expr| !known_sign(g, factor, &assumptions).is_nonzero();
-        let kept: Vec<Expr> = factors
-            .iter()
-            .filter(vanishes)
-            .map(|&e| self.base(e))
-            .collect();
-        g.mul(&kept)
+        }
+        let all = self.factors(e);
+        let is_open = |&&factor: &&Expr| !self.space.sign(factor).is_nonzero();
+        let kept: Vec<Expr> = all.iter().filter(is_open).copied().collect();
+        if is_product || kept.len() < all.len() {
+            g.mul(&kept)
+        } else {
+            self.base(e)
+        }
+    }
+
+    /// Whether all jets of something assumed occur in an expression, so that it may be a factor of it.
+    fn may_have_assumed_factors(&self, e: Expr) -> bool {
+        let own = self.space.jets_in(&[e]);
+        let assumptions = self.space.assumptions();
+        let mut assumed = assumptions.list().iter();
+        assumed.any(|assumed| {
+            let sides = [self.normal(assumed.left), self.normal(assumed.right)];
+            let jets = self.space.jets_in(&sides);
+            !jets.is_empty() && jets.is_subset(&own)
+        })
     }
 
     /// Leaves out jets that occur in what is left although nothing depends on them; whether there were any.
@@ -243,6 +254,9 @@ impl Solved<'_> {
             .iter()
             .all(|row| space.jets_in(row).is_empty() && self.is_free(row));
         let Pivots { rows, columns } = self.pivots_of(&matrix)?;
+        if !is_constant && self.meets_product(equations, &rows) {
+            return None;
+        }
         let class = match (hoped, is_constant) {
             _ if has_derivatives => HOMOGENEOUS,
             (class, true) => class,
@@ -294,6 +308,19 @@ impl Solved<'_> {
         })
     }
 
+    /// Whether what would be divided by may vanish in a case of a product that is left: what such a one says is known in each case only.
+    /// Of several equations that are solved together the determinant is named instead, unless they are products themselves.
+    fn meets_product(&self, equations: &[Expr], rows: &[usize]) -> bool {
+        let g = &self.space.graph;
+        if rows.len() == 1 {
+            let mut left = self.left.iter().flat_map(|group| &group.equations);
+            return left.any(|&e| self.is_product(e));
+        }
+        let is_written_so = |e: Expr| matches!(g.node(e), Node::Product { .. });
+        let mut own = rows.iter().map(|&row| equations[row]);
+        own.any(|e| is_written_so(e) && self.is_product(e))
+    }
+
     /// Whether coefficients are free of the normal too, whose components may vanish.
     fn is_free(&self, row: &[Expr]) -> bool {
         let g = &self.space.graph;
@@ -327,7 +354,7 @@ impl Solved<'_> {
     }
 
     pub(super) fn pivots_of(&self, matrix: &[Vec<Expr>]) -> Option<Pivots> {
-        let assumptions = Assumptions::new();
+        let assumptions = self.space.assumptions();
         let columns = matrix.first()?.len();
         let entries: Vec<Expr> = matrix
             .iter()
@@ -515,13 +542,12 @@ impl Solved<'_> {
             return;
         };
         let divisors: BTreeSet<Expr> = divisors.into_iter().collect();
-        let assumptions = Assumptions::new();
         for divisor in divisors {
             let factors = chetaev_symbolic::factors::factors(g, divisor, &symbols);
             let factors = factors.unwrap_or_else(|| vec![(divisor, 1)]);
             for (factor, _) in factors {
                 let is_open = g.as_number(factor).is_none()
-                    && !known_sign(g, factor, &assumptions).is_nonzero();
+                    && !self.space.sign(factor).is_nonzero();
                 if is_open {
                     self.nonzero.insert(factor);
                 }

@@ -13,7 +13,7 @@ mod print;
 mod terms;
 
 pub use indices::{check, free_letters};
-pub use parse::{parse, parse_sides};
+pub use parse::{parse, parse_comparison, parse_sides};
 pub use print::{written, written_equation};
 
 use chetaev_symbolic::syntax::Span;

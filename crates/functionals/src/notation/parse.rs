@@ -1,11 +1,12 @@
 //! Tokens to trees.
 
 use super::{Atom, Index, Kind, Names, Node};
-use crate::tensors::tuples;
+use crate::tensors::{tuples, DETERMINANT};
 use chetaev_symbolic::syntax::ast::Relation;
 use chetaev_symbolic::syntax::lexer::{tokens, Token, TokenKind};
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::syntax::{Diagnostic, Span};
+use chetaev_symbolic::zero::assumptions::Relation as Comparison;
 use chetaev_symbolic::{Function, Rational};
 
 /// Deepest nesting: reading recurses on parentheses.
@@ -36,6 +37,50 @@ pub fn parse_sides(
     };
     reader.end()?;
     reader.finished((left, right))
+}
+
+/// Reads a comparison, or several in a row: `0 < a < b`.
+pub fn parse_comparison(
+    text: &str,
+    names: &dyn Names,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<(Vec<Node>, Vec<Comparison>)> {
+    let mut reader = Reader::new(text, names, problems);
+    let mut sides = vec![reader.sum()?];
+    let mut relations = Vec::new();
+    while let Some(TokenKind::Relation(written)) = reader.kind().cloned() {
+        let span = reader.span();
+        let Some(relation) = comparison(written) else {
+            let message = "an assumption is a comparison, and this is an equation";
+            return reader.fail(
+                Diagnostic::error("not-a-comparison", span, message)
+                    .hint("an equation that holds beforehand is stated in [equations] and named under `imposed`"),
+            );
+        };
+        reader.at += 1;
+        relations.push(relation);
+        sides.push(reader.sum()?);
+    }
+    reader.end()?;
+    if relations.is_empty() {
+        let span = Span::new(0, text.len());
+        return reader.fail(
+            Diagnostic::error("not-a-comparison", span, "an assumption is a comparison")
+                .hint("such as \"E > 0\" or \"det(delta_ij + u_i,j) > 0\""),
+        );
+    }
+    reader.finished((sides, relations))
+}
+
+fn comparison(written: Relation) -> Option<Comparison> {
+    match written {
+        Relation::Equal => None,
+        Relation::Less => Some(Comparison::Less),
+        Relation::LessOrEqual => Some(Comparison::LessOrEqual),
+        Relation::Greater => Some(Comparison::Greater),
+        Relation::GreaterOrEqual => Some(Comparison::GreaterOrEqual),
+        Relation::NotEqual => Some(Comparison::NotEqual),
+    }
 }
 
 struct Reader<'a> {
@@ -465,19 +510,19 @@ impl<'a> Reader<'a> {
         tail: Option<&(String, Span)>,
         span: Span,
     ) -> Option<(String, String)> {
-        if let Some((indices, _)) = tail {
+        if let Some((indices, _)) = tail.filter(|_| written != DETERMINANT) {
             if self.names.function(written).is_some() {
                 return Some((written.to_owned(), indices.clone()));
             }
         }
-        if primes > 0 && self.names.function(written).is_none() {
+        if primes > 0 && (self.names.function(written).is_none() || written == DETERMINANT) {
             return self.fail(
                 Diagnostic::error(
                     "prime-of-field",
                     span,
                     format!("`{written}` has no derivative written with primes"),
                 )
-                .hint("derivatives of fields stand behind a comma: u_k,i or w,xx"),
+                .hint("derivatives of fields and of det(…) stand behind a comma: u_k,i or w,xx"),
             );
         }
         let known = |name: &str| {

@@ -1,5 +1,6 @@
 //! From a model file to functionals, with every problem at its place.
 
+mod assumptions;
 mod declare;
 mod family;
 mod living;
@@ -43,6 +44,7 @@ const KEYS: &[&str] = &[
     "history",
     "source",
     "sizes",
+    "assumptions",
     "domain",
     "fields",
     "data",

@@ -6,7 +6,7 @@ use crate::functional::{Functional, Interval, Side, Solution};
 use crate::notation::{parse, Names};
 use crate::tensors::{Scope, Shape};
 use chetaev_model::raw::{Raw, Table};
-use chetaev_model::{Diagnostic, Text};
+use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::Expr;
 
 const KEYS: &[&str] = &[
@@ -81,6 +81,7 @@ impl Reader<'_> {
             values,
             intervals,
             pieces,
+            has_pieces: table.get("pieces").is_some(),
             value,
         })
     }
@@ -109,19 +110,72 @@ impl Reader<'_> {
             let own = functional.pieces.iter();
             return own.map(|p| (p.name.clone(), p.side.clone())).collect();
         };
-        let mut found = Vec::new();
+        let mut found: Vec<(String, Side)> = Vec::new();
         for (key, raw) in &section.entries {
             if functional.piece(&key.content).is_none() {
                 let message = format!("`{}` is not a piece of the boundary", key.content);
                 self.push(Diagnostic::error("unknown-piece", key.place, message));
                 continue;
             }
-            let side = self
-                .text_of(raw, &key.content)
-                .and_then(|text| self.side(scope, &text, intervals));
-            found.extend(side.map(|side| (key.content.clone(), side)));
+            for text in self.texts(raw, &key.content) {
+                let Some(side) = self.side(scope, &text, intervals) else {
+                    return found;
+                };
+                if let Some((other, _)) = found.iter().find(|(_, own)| *own == side) {
+                    let message = format!("`{}` is a face of `{other}` already", text.content);
+                    self.push(
+                        Diagnostic::error("declared-twice", text.place, message)
+                            .hint("a face of the box is one piece of the boundary, or a part of it"),
+                    );
+                }
+                found.push((key.content.clone(), side));
+            }
         }
+        self.unplaced_pieces(table, section, functional);
+        self.uncovered_faces(table, scope, intervals, &found);
         found
+    }
+
+    /// Every piece of the boundary is spoken of, those too that no face of this box is.
+    fn unplaced_pieces(&mut self, table: &Table, section: &Table, functional: &Functional) {
+        let place = table.get("pieces").map_or(Place::default(), |raw| raw.place);
+        for piece in &functional.pieces {
+            if section.get(&piece.name).is_some() {
+                continue;
+            }
+            let message = format!("where `{}` lies is not stated", piece.name);
+            self.push(Diagnostic::error("missing-piece", place, message).hint(format!(
+                "add {0} = \"x = 0\", with the face that it is, {0} = [\"x = 0\", \"y = 0\"] for several, or {0} = [] for none",
+                piece.name
+            )));
+        }
+    }
+
+    /// Every face of the box is a piece of the boundary.
+    fn uncovered_faces(
+        &mut self,
+        table: &Table,
+        scope: &Scope,
+        intervals: &[Interval],
+        found: &[(String, Side)],
+    ) {
+        let place = table.get("pieces").map_or(Place::default(), |raw| raw.place);
+        let g = &scope.space.graph;
+        for interval in intervals {
+            let coordinate = &scope.space.coordinates[interval.axis];
+            for (own, end) in [(false, interval.lower), (true, interval.upper)] {
+                let is_here = |side: &Side| matches!(side, Side::Flat { axis, is_upper, .. } if *axis == interval.axis && *is_upper == own);
+                if coordinate.is_time || found.iter().any(|(_, side)| is_here(side)) {
+                    continue;
+                }
+                let face = format!("{} = {}", coordinate.name, g.text(end));
+                let message = format!("the face {face} of the box is no piece of the boundary");
+                self.push(
+                    Diagnostic::error("missing-piece", place, message)
+                        .hint("each face of the box belongs to one piece; a piece may have several: [\"x = 0\", \"y = 0\"]"),
+                );
+            }
+        }
     }
 
     fn intervals_in(&mut self, table: &Table, scope: &Scope) -> Vec<Interval> {

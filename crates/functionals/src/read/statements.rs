@@ -40,6 +40,7 @@ impl Reader<'_> {
             return None;
         }
         self.function_rules(table, &mut scope, &functions);
+        let assumptions = self.assumptions(table, &scope);
         let intervals = self.intervals(table, &scope);
         let Some(text) = self.optional(table, "density") else {
             let message = "a functional needs its density";
@@ -85,6 +86,7 @@ impl Reader<'_> {
             parameters,
             functions,
             definitions,
+            assumptions,
             density,
             tree,
             written: text.content,

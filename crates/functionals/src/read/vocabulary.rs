@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::boundary::CURVATURE;
 use crate::notation::Names;
-use crate::tensors::Scope;
+use crate::tensors::{Scope, DETERMINANT};
 use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::Function;
 
@@ -14,6 +14,7 @@ fn meaning(name: &str) -> Option<String> {
         "delta" => "the unit tensor",
         "epsilon" => "the permutation symbol",
         CURVATURE => "the curvature of the boundary",
+        DETERMINANT => "the determinant of a tensor",
         "pi" => "the number π",
         "sum" => "the sign of a sum",
         "sqrt" => "the square root",

@@ -119,24 +119,122 @@ fn equations_that_nothing_satisfies_prove_nothing() {
     assert_eq!(verdict("u + v^2", &["v = 0"]).word(), "refuted");
 }
 
+/// Fields on 0 < x < 1, all given at both ends.
+fn on_a_line(
+    density: &str,
+    fields: &[&str],
+    given: &str,
+    equations: &[&str],
+    more: &str,
+) -> String {
+    let declared: Vec<String> = fields.iter().map(|f| format!("{f} = \"scalar\"")).collect();
+    let fixed: Vec<String> = fields.iter().map(|f| format!("\"{f}\"")).collect();
+    let fixed = format!("{{ fixed = [{}] }}", fixed.join(", "));
+    let labels: Vec<String> = (0..equations.len()).map(|k| format!("\"e{k}\"")).collect();
+    let stated: Vec<String> = equations
+        .iter()
+        .enumerate()
+        .map(|(k, e)| format!("e{k} = \"{e}\""))
+        .collect();
+    format!(
+        "kind = \"functional\"\nname = \"line\"\ndensity = \"{density}\"\nyields = [{}]\n{more}\n\
+         [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\n{}\n[data]\n{given}\n\
+         [boundary]\n\"x = 0\" = {fixed}\n\"x = 1\" = {fixed}\n[equations]\n{}\n",
+        labels.join(", "),
+        declared.join("\n"),
+        stated.join("\n")
+    )
+}
+
 fn word(text: &str, claim: &str) -> (String, String) {
     let study = studied_text("p4p", text, &[]);
     let verdict = decided(&study, claim);
     (verdict.word().to_owned(), verdict.detail().to_owned())
 }
 
-/// q (u - g) = 0 gives u = g where q does not vanish, and this is said: a string off the obstacle (q = 0) is stationary too.
+/// A product vanishes where any of its factors does: none is divided by. Of each refuted case the state that shows it is in the comment.
 #[test]
-fn what_is_divided_by_with_fields_in_it_is_said() {
-    let text = "kind = \"functional\"\nname = \"obstacle\"\ndensity = \"1/2 u,x^2 - f u - 1/2 q^2 (u - g)\"\nyields = [\"a\", \"b\"]\n\
-         [domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\nq = \"scalar\"\n\
-         [data]\nf = \"scalar\"\ng = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"u\"] }\n\"x = 1\" = { fixed = [\"u\"] }\n\
-         [equations]\na = \"u,xx + f + q^2/2 = 0\"\nb = \"u = g\"\n";
-    let (word, detail) = word(text, "functional.euler");
-    assert!(
-        word != "proved" || detail.contains("in which fields occur"),
-        "{word}: {detail}"
+fn a_product_keeps_all_of_its_branches() {
+    let data = "f = \"scalar\"\ng = \"scalar\"";
+    let obstacle = "u,x^2 - f u - 1/2 q^2 (u - g)";
+    let cases: &[(&str, &[&str], &[&str], &str)] = &[
+        // q = 0: a string off the obstacle.
+        (
+            obstacle,
+            &["u", "q"],
+            &["2 u,xx + f + q^2/2 = 0", "u = g"],
+            "refuted",
+        ),
+        (
+            obstacle,
+            &["u", "q"],
+            &["2 u,xx + f + q^2/2 = 0", "q = 0"],
+            "refuted",
+        ),
+        (
+            obstacle,
+            &["u", "q"],
+            &["2 u,xx + f + q^2/2 = 0", "q (u - g) = 0"],
+            "proved",
+        ),
+        // u = 0.
+        ("1/4 u^4 - f/2 u^2", &["u"], &["u^2 = f"], "refuted"),
+        ("1/4 u^4 - f/2 u^2", &["u"], &["u (u^2 - f) = 0"], "proved"),
+        // u = -x.
+        (
+            "1/2 u,x^2 + f u",
+            &["u"],
+            &["(1 + u,x) (u,xx - f) = 0"],
+            "refuted",
+        ),
+        ("1/2 u,x^2 + f u", &["u"], &["u,xx - f = 0"], "proved"),
+        (
+            "1/2 u,x^2 + f u",
+            &["u"],
+            &["(1 + u,x^2) (u,xx - f) = 0"],
+            "proved",
+        ),
+        // v = 1, p = 0.
+        ("p v v,x", &["p", "v"], &["v = 0", "v p,x = 0"], "refuted"),
+        (
+            "p v v,x",
+            &["p", "v"],
+            &["v v,x = 0", "v p,x = 0"],
+            "proved",
+        ),
+        // v = x.
+        (
+            "p v (v,x - 1)",
+            &["p", "v"],
+            &["v = 0", "p,x v + p = 0"],
+            "refuted",
+        ),
+        (
+            "p v (v,x - 1)",
+            &["p", "v"],
+            &["v (v,x - 1) = 0", "p,x v + p = 0"],
+            "proved",
+        ),
+    ];
+    for (density, fields, equations, wanted) in cases {
+        let text = on_a_line(density, fields, data, equations, "");
+        let (word, detail) = word(&text, "functional.euler");
+        assert_eq!(word, *wanted, "{density}, {equations:?}: {detail}");
+    }
+}
+
+/// v = 1, p = x²/2 solves the equations, and the current is x v²/2 there.
+#[test]
+fn a_current_is_closed_on_all_branches() {
+    let text = on_a_line(
+        "p v v,x + x/2 v^2",
+        &["p", "v"],
+        "",
+        &["v v,x = 0", "x v - v p,x = 0"],
+        "symmetries = [\"translations\"]",
     );
+    let (word, detail) = word(&text, "functional.noether");
+    assert_ne!(word, "proved", "{detail}");
 }
 
 /// On a line u'' = 0 with E u' = P at the end is E u' = P everywhere.

@@ -1,8 +1,6 @@
 //! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
 
 use crate::functional::{Functional, Role};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
 use std::collections::BTreeSet;
 
@@ -62,7 +60,7 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<Stri
             },
             _ => return None,
         };
-        let sign = known_sign(g, inner, &Assumptions::new());
+        let sign = functional.space.sign(inner);
         let is_known = match relation {
             ">" => sign.is_positive(),
             ">=" => sign.is_nonnegative(),

@@ -11,8 +11,6 @@ use crate::signs::{enclosure, on_interval, Sign};
 use crate::space::{Component, Space};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Rational, Verdict};
 use form::Form;
 use jacobi::Shown;
@@ -169,7 +167,7 @@ fn by_signs(form: &Form<'_>) -> Option<Proof> {
         return None;
     }
     let rest = g.sub(form.r[0][0], form.functional.space.total(form.q[0][0], 0));
-    let sign = |e: Expr| known_sign(g, e, &Assumptions::new());
+    let sign = |e: Expr| form.functional.space.sign(e);
     let is_held = form.ends.iter().all(|end| end.fixed[0]);
     let is_rest = g.is_zero(rest) || sign(rest).is_nonnegative();
     (is_held && sign(form.p[0][0]).is_positive() && is_rest).then(|| {
