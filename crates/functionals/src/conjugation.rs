@@ -9,7 +9,7 @@
 use crate::space::Space;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+use chetaev_symbolic::{rational, Expr, Function, Node, Symbol, Verdict};
 
 impl Space {
     /// Whether a function and its conjugate are that by their formulas, decided once; `None` where it has no conjugate, or where one of
@@ -31,6 +31,65 @@ impl Space {
             None | Some(Verdict::Proved(_)) => Some(other),
             Some(_) => None,
         }
+    }
+
+    /// States the conjugate of a function with a formula whose gradient is linear, where the conjugate has none:
+    /// `B(s) = s x − A(x)` with the x at which `A'(x) = s`.
+    pub fn state_conjugate(&self, function: usize) {
+        let Some(other) = self.function_at(function).conjugate else {
+            return;
+        };
+        if !self.is_known_alone(function) {
+            return;
+        }
+        if let Some(value) = self.conjugate_of_quadratic(function) {
+            self.state_body(other, value);
+        }
+    }
+
+    fn conjugate_of_quadratic(&self, function: usize) -> Option<Expr> {
+        let g = &self.graph;
+        let slots = self.slots(function);
+        let gradient: Option<Vec<Expr>> = (0..slots.len())
+            .map(|k| self.body(function, &[k], &slots))
+            .collect();
+        let gradient = gradient?;
+        let symbols: Vec<Symbol> = slots.iter().filter_map(|&s| g.as_symbol(s)).collect();
+        let mut matrix = Vec::new();
+        for &e in &gradient {
+            for &symbol in &symbols {
+                let slope = self.derive(e, &|s| (s == symbol).then_some(g.one()));
+                if g.contains_any(slope, &symbols) {
+                    return None;
+                }
+                matrix.push(slope);
+            }
+        }
+        let rows: Vec<Vec<Expr>> = matrix.chunks(slots.len()).map(<[Expr]>::to_vec).collect();
+        if self.vanish(&[determinant(g, &rows)]) {
+            return None;
+        }
+        let at_zero: Vec<(Expr, Expr)> = slots.iter().map(|&s| (s, g.zero())).collect();
+        let rest = g.substitute_all(&gradient, &at_zero);
+        // The place-holders stand for the argument of the conjugate now.
+        let right: Vec<Expr> = slots.iter().zip(rest).map(|(&s, r)| g.sub(s, r)).collect();
+        let x = g.solve(&matrix, &right).ok()?;
+        let multiplicities = self.function_at(function).multiplicities;
+        let mut terms = vec![g.neg(self.body(function, &[], &x)?)];
+        for ((&y, &x), &m) in slots.iter().zip(&x).zip(&multiplicities) {
+            terms.push(g.mul(&[g.integer(m), x, y]));
+        }
+        Some(g.add(&terms))
+    }
+
+    /// A function in an expression that has no formula, though its conjugate has one: what its values are is known through that alone.
+    pub fn known_by_conjugate(&self, e: Expr) -> Option<String> {
+        let mut applied = self.functions_in(e).into_iter();
+        let own = applied.find(|&own| {
+            let other = self.function_at(own).conjugate;
+            other.is_some_and(|other| self.is_known_alone(other))
+        })?;
+        Some(self.function_at(own).name)
     }
 
     /// `B'(A'(X)) − X` and `A(X) + B(A'(X)) − A'(X) X`, with A and B in this order.
@@ -170,8 +229,7 @@ impl Space {
                 Node::Power { base, exponent } => {
                     open.extend([*base, *exponent]);
                     let power = g.as_number(*exponent).and_then(rational::to_i64);
-                    power.is_some_and(|n| n >= 0)
-                        || self.sign(*base).is_positive()
+                    power.is_some_and(|n| n >= 0) || self.sign(*base).is_positive()
                 }
                 Node::Apply {
                     function,

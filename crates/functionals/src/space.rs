@@ -497,8 +497,12 @@ impl Space {
                 }
             }
         }
+        if self.is_known_alone(function) {
+            candidates.extend(self.arguments_within(arguments));
+        }
         candidates.into_iter().find(|candidate| {
             let image = self.gradient(function, candidate);
+            let image: Vec<Expr> = image.into_iter().map(|e| self.explicit(e)).collect();
             let differences: Vec<Expr> = image
                 .iter()
                 .zip(arguments)
@@ -506,6 +510,27 @@ impl Space {
                 .collect();
             differences.iter().all(|&e| g.is_zero(e)) || self.vanish(&differences)
         })
+    }
+
+    /// Whether a function has a formula and its conjugate has none.
+    pub(crate) fn is_known_alone(&self, function: usize) -> bool {
+        let stated = self.bodies.borrow();
+        let other = self.function_at(function).conjugate;
+        stated.contains_key(&function) && other.is_some_and(|own| !stated.contains_key(&own))
+    }
+
+    /// Arguments of which others may be the image by a formula: tensors with a name, and jets for one argument, that occur in them.
+    fn arguments_within(&self, images: &[Expr]) -> Vec<Vec<Expr>> {
+        let occurring = self.symbols_in(images);
+        let mut found = self.named_arguments();
+        if images.len() == 1 {
+            let jets = self.jets_in(images).into_iter();
+            found.extend(jets.map(|jet| vec![self.jet(jet.component, &jet.by)]));
+        }
+        found.retain(|own| {
+            own.len() == images.len() && self.symbols_in(own).is_subset(&occurring)
+        });
+        found
     }
 
     /// Whether all expressions are proved to vanish identically in the symbols that occur.
@@ -772,6 +797,21 @@ impl Space {
             let pair = (own.function, own.arguments);
             if is_undone && !found.contains(&pair) {
                 found.push(pair);
+            }
+        }
+        found
+    }
+
+    /// Constitutive functions that occur in an expression.
+    pub(crate) fn functions_in(&self, e: Expr) -> BTreeSet<usize> {
+        let known = self.applications.borrow();
+        let mut found = BTreeSet::new();
+        let mut open = vec![e];
+        while let Some(e) = open.pop() {
+            let own = self.graph.symbols_in(&[e]).into_iter();
+            for application in own.filter_map(|symbol| known.get(&symbol)) {
+                found.insert(application.function);
+                open.extend(&application.arguments);
             }
         }
         found

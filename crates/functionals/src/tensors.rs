@@ -21,18 +21,21 @@ pub enum Shape {
     Symmetric,
     /// A tensor of rank two.
     Matrix,
-    /// A tensor of rank four that is symmetric within each pair of indices.
+    /// A tensor of elastic constants: symmetric within each pair of indices, and in the two pairs.
     Elastic,
+    /// A tensor of rank four that is symmetric within each pair of indices only.
+    Minor,
 }
 
 impl Shape {
     /// The words of model files.
-    pub const WORDS: [(&'static str, Shape); 5] = [
+    pub const WORDS: [(&'static str, Shape); 6] = [
         ("scalar", Shape::Scalar),
         ("vector", Shape::Vector),
         ("symmetric", Shape::Symmetric),
         ("matrix", Shape::Matrix),
         ("elastic", Shape::Elastic),
+        ("minor", Shape::Minor),
     ];
 
     /// The number of indices.
@@ -41,7 +44,7 @@ impl Shape {
             Shape::Scalar => 0,
             Shape::Vector => 1,
             Shape::Symmetric | Shape::Matrix => 2,
-            Shape::Elastic => 4,
+            Shape::Elastic | Shape::Minor => 4,
         }
     }
 
@@ -63,14 +66,10 @@ impl Shape {
                 .map(|(i, j)| (vec![i, j], if i == j { 1 } else { 2 }))
                 .collect(),
             Shape::Matrix => tuples(2, d).into_iter().map(|t| (t, 1)).collect(),
-            Shape::Elastic => {
-                let mut found = Vec::new();
-                for (i, j) in pairs(d) {
-                    for (k, l) in pairs(d) {
-                        found.push((vec![i, j, k, l], 1));
-                    }
-                }
-                found
+            Shape::Elastic | Shape::Minor => {
+                let all = tuples(4, d).into_iter();
+                let independent = all.filter(|t| self.canonical(t) == *t);
+                independent.map(|t| (t, 1)).collect()
             }
         }
     }
@@ -80,9 +79,13 @@ impl Shape {
         let mut own = indices.to_vec();
         match self {
             Shape::Symmetric => own.sort_unstable(),
-            Shape::Elastic => {
+            Shape::Elastic | Shape::Minor => {
                 if let [i, j, k, l] = own[..] {
-                    own = vec![i.min(j), i.max(j), k.min(l), k.max(l)];
+                    let (mut one, mut other) = ((i.min(j), i.max(j)), (k.min(l), k.max(l)));
+                    if self == Shape::Elastic && other < one {
+                        std::mem::swap(&mut one, &mut other);
+                    }
+                    own = vec![one.0, one.1, other.0, other.1];
                 }
             }
             _ => {}

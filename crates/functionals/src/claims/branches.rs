@@ -74,7 +74,19 @@ pub(super) fn branches(functional: &Functional) -> Option<Vec<Branch>> {
             words: words.join(" and "),
         }
     };
-    Some((0..1usize << of.len()).map(branch).collect())
+    // Where what is under a root has one sign anyway, the other branch is empty.
+    let is_possible = |signs: &usize| {
+        (0..of.len()).all(|at| {
+            let sign = functional.space.sign(of[at]);
+            if signs >> at & 1 == 0 {
+                sign.is_nonnegative() || !sign.is_nonpositive()
+            } else {
+                !sign.is_nonnegative()
+            }
+        })
+    };
+    let all = (0..1usize << of.len()).filter(is_possible);
+    Some(all.map(branch).collect())
 }
 
 /// `|y|`, or `(c y²)^p` with a power p that is no whole number.

@@ -203,7 +203,10 @@ impl Inserted<'_> {
             let own = self.functional.piece(name);
             let is_known = self.solution.has_pieces
                 || own.is_some_and(|piece| matches!(piece.side, Side::Flat { .. }));
-            is_known && self.sides(name).all(|side| matches!(side, Side::Flat { .. }))
+            is_known
+                && self
+                    .sides(name)
+                    .all(|side| matches!(side, Side::Flat { .. }))
         };
         let imposed = self.functional.with_role(Role::Imposed);
         let imposed = imposed.filter_map(|e| e.on.clone());

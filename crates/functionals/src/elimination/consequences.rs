@@ -133,14 +133,19 @@ impl<'s> Solved<'s> {
         })
     }
 
-    /// The factors of an expression in which jets occur, without those that are known to vanish nowhere.
+    /// The factors of an expression in which jets occur, without those that are known to vanish nowhere. A function of which nothing is
+    /// known is no factor by itself: where it does not vanish is a condition on the function, as it is on a parameter.
     fn factors_with_jets(&self, e: Expr) -> Vec<Expr> {
         let space = self.space;
+        let g = &space.graph;
+        let is_function = |e| g.as_symbol(e).is_some_and(|s| space.is_application(s));
         let has_jets = |&factor: &Expr| {
             let mut jets = space.jets_in(&[factor]).into_iter();
             jets.any(|jet| !space.is_curvature(jet.component)) && !space.sign(factor).is_nonzero()
         };
-        self.factors(e).into_iter().filter(has_jets).collect()
+        let mut own = self.factors(e);
+        own.retain(|e| has_jets(e) && !is_function(*e));
+        own
     }
 
     /// The factors of an expression, without numbers and powers: it vanishes where one of them does.

@@ -476,6 +476,11 @@ impl<'s> Solved<'s> {
     /// A counterexample, where the boundary is plane if there is one: there the derivatives of the curvature are consistent.
     fn contradicted(&self, e: Expr) -> Verdict {
         let space = self.space;
+        if let Some(function) = space.known_by_conjugate(e) {
+            return Verdict::undecided(format!(
+                "the values of {function} are known through its conjugate alone, so that no counterexample was sought"
+            ));
+        }
         let plane = space.on_plane(e);
         let known = |y: &Expr| space.on_plane(space.explicit(self.normal(*y)));
         let known: Vec<Expr> = self.nonnegative.iter().map(known).collect();

@@ -117,10 +117,7 @@ impl Solved<'_> {
             .iter()
             .map(|(term, coefficient)| g.mul(&[g.number(coefficient.clone()), *term]));
         let parts: Vec<Expr> = parts.collect();
-        let signs: Vec<_> = parts
-            .iter()
-            .map(|&part| self.space.sign(part))
-            .collect();
+        let signs: Vec<_> = parts.iter().map(|&part| self.space.sign(part)).collect();
         let is_split = constant.is_zero()
             && (signs.iter().all(|sign| sign.is_nonnegative())
                 || signs.iter().all(|sign| sign.is_nonpositive()));
@@ -546,8 +543,8 @@ impl Solved<'_> {
             let factors = chetaev_symbolic::factors::factors(g, divisor, &symbols);
             let factors = factors.unwrap_or_else(|| vec![(divisor, 1)]);
             for (factor, _) in factors {
-                let is_open = g.as_number(factor).is_none()
-                    && !self.space.sign(factor).is_nonzero();
+                let is_open =
+                    g.as_number(factor).is_none() && !self.space.sign(factor).is_nonzero();
                 if is_open {
                     self.nonzero.insert(factor);
                 }

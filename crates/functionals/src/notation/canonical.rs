@@ -125,13 +125,17 @@ fn sorted(node: &Node, scope: &Scope) -> Node {
     own.derivatives.sort_unstable();
     let pairs = match scope.shapes.get(&own.name) {
         Some(Shape::Symmetric) => 1,
-        Some(Shape::Elastic) => 2,
+        Some(Shape::Elastic | Shape::Minor) => 2,
         _ if own.name == "delta" || scope.is_symmetric(&own.name) => 1,
         _ if own.argument.is_some() && own.indices.len() == 2 * own.primes as usize => own.primes,
         _ => 0,
     };
     for pair in own.indices.chunks_mut(2).take(pairs as usize) {
         pair.sort_unstable();
+    }
+    let is_elastic = scope.shapes.get(&own.name) == Some(&Shape::Elastic);
+    if is_elastic && own.indices.len() == 4 && own.indices[2..] < own.indices[..2] {
+        own.indices.rotate_left(2);
     }
     Node {
         kind: Kind::Atom(Atom { ..own }),

@@ -347,6 +347,21 @@ impl<'a> Reader<'a> {
             }
             return Some(Index::Place(place - 1));
         }
+        if matches!(letter, 't' | 'x' | 'y' | 'z') {
+            let (what, hint) = match letter {
+                't' => ("the time", "[domain] time = \"t\" declares it"),
+                _ => ("a coordinate", "[domain] coordinates = [\"x\", \"y\"] declares coordinates; of a family x_i the derivatives are u,1 and u,i"),
+            };
+            return self.fail(
+                Diagnostic::error(
+                    "bad-index",
+                    span,
+                    format!("`{letter}` reads as {what}, which this functional does not have"),
+                )
+                .hint(hint)
+                .hint("an index that is summed over has another letter, such as i, j, k"),
+            );
+        }
         if letter.is_ascii_lowercase() {
             return Some(Index::Letter(letter));
         }
@@ -387,7 +402,10 @@ impl<'a> Reader<'a> {
         }
         let argument = match self.names.function(&name) {
             Some(_) => Some(Box::new(self.argument(&name)?)),
-            None => None,
+            None => {
+                self.not_of_place(&name, span)?;
+                None
+            }
         };
         let derivatives = self.derivatives()?;
         Some(Node {
@@ -400,6 +418,42 @@ impl<'a> Reader<'a> {
             }),
             span: Span::new(span.start, self.last_end()),
         })
+    }
+
+    /// `q(x)` would be a product: what depends on the place is written without it.
+    fn not_of_place(&mut self, name: &str, span: Span) -> Option<()> {
+        let touches = self.kind() == Some(&TokenKind::Open) && self.span().start == self.last_end();
+        let is_name = self.names.coordinate(name).is_none();
+        let mut at = self.at + 1;
+        let mut is_place = touches && is_name;
+        let place_start = self.span().start;
+        while is_place {
+            let own = self.tokens.get(at).map(|token| token.span.text(self.text));
+            is_place = own.is_some_and(|text| self.names.coordinate(text).is_some());
+            match self.tokens.get(at + 1).map(|token| &token.kind) {
+                Some(TokenKind::Comma) if is_place => at += 2,
+                Some(TokenKind::Close) if is_place => break,
+                _ => is_place = false,
+            }
+        }
+        if !is_place {
+            return Some(());
+        }
+        let end = self
+            .tokens
+            .get(at + 1)
+            .map_or(span.end, |token| token.span.end);
+        let written = Span::new(place_start, end).text(self.text).to_owned();
+        self.fail(
+            Diagnostic::error(
+                "unexpected-token",
+                Span::new(span.start, end),
+                format!("`{name}{written}` would be a product"),
+            )
+            .hint(format!(
+                "fields and data depend on the place anyway: write {name}, or {name} * {written} for the product"
+            )),
+        )
     }
 
     /// `sum_ij(…)`: the sum over all values of the letters, whatever stands in the parentheses.

@@ -56,7 +56,11 @@ impl Reader<'_> {
             }
             if !scope.space.symbols_in(&[left, right]).is_empty() {
                 says = true;
-                scope.space.assume(Assumption { left, relation, right });
+                scope.space.assume(Assumption {
+                    left,
+                    relation,
+                    right,
+                });
             }
         }
         says

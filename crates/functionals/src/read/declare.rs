@@ -8,7 +8,7 @@ use crate::tensors::{tuples, Scope, Shape, Tensor};
 use chetaev_model::raw::{Kind, Raw, Table};
 use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::names::closest;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Verdict};
 use std::collections::BTreeMap;
 
 /// Most dimensions of space.
@@ -418,13 +418,65 @@ impl Reader<'_> {
                         let places = letters.iter().copied().zip(indices).collect();
                         scope.value(&node, &places)
                     });
-                    scope.space.state_gradient(own.function, values.collect());
+                    let values: Vec<Expr> = values.collect();
+                    self.is_gradient(scope, own, &values, &text);
+                    scope.space.state_gradient(own.function, values);
                 }
             }
             match before {
                 Some(tensor) => scope.tensors.insert(name, tensor),
                 None => scope.tensors.remove(&name),
             };
+        }
+        for own in all {
+            scope.space.state_conjugate(own.function);
+        }
+    }
+
+    /// A stated gradient is that of the stated value; without one its slopes are symmetric, so that it is the gradient of something.
+    fn is_gradient(&mut self, scope: &Scope, own: &Constitutive, values: &[Expr], text: &Text) {
+        let space = &*scope.space;
+        let g = &space.graph;
+        let slots = space.slots(own.function);
+        let is_refuted = |e: Expr| matches!(space.vanishing(&[e], true), Verdict::Refuted(_));
+        // With parameters or other functions in it, it is a condition on these.
+        let own_alone = |e: Expr| {
+            let symbols: Vec<Expr> = g
+                .symbols_in(&[e])
+                .iter()
+                .map(|&s| g.symbol_expr(s))
+                .collect();
+            symbols.iter().all(|s| slots.contains(s))
+        };
+        for (k, &value) in values.iter().enumerate() {
+            let of_value = space.body(own.function, &[k], &slots);
+            if of_value.is_some_and(|e| is_refuted(g.sub(e, value))) {
+                let message = format!("this is not the gradient of the value of `{}`", own.name);
+                self.push(
+                    Diagnostic::error("bad-gradient", text.place, message)
+                        .hint("leave `gradient` out: it is computed from the value"),
+                );
+                return;
+            }
+        }
+        let multiplicities = space.function_at(own.function).multiplicities;
+        let slope = |of: usize, by: usize| {
+            let symbol = g.as_symbol(slots[by]);
+            let own = space.derive(values[of], &|s| (Some(s) == symbol).then_some(g.one()));
+            g.mul(&[g.integer(multiplicities[of]), own])
+        };
+        for k in 0..values.len() {
+            for l in 0..k {
+                let difference = g.sub(slope(k, l), slope(l, k));
+                if own_alone(difference) && is_refuted(difference) {
+                    let message = format!(
+                        "this is the gradient of no function: its slopes are not symmetric, so that `{}` does not exist",
+                        own.name
+                    );
+                    self.push(Diagnostic::error("bad-gradient", text.place, message));
+                    return;
+                }
+            }
         }
     }
 }

@@ -124,8 +124,9 @@ impl Reader<'_> {
                 if let Some((other, _)) = found.iter().find(|(_, own)| *own == side) {
                     let message = format!("`{}` is a face of `{other}` already", text.content);
                     self.push(
-                        Diagnostic::error("declared-twice", text.place, message)
-                            .hint("a face of the box is one piece of the boundary, or a part of it"),
+                        Diagnostic::error("declared-twice", text.place, message).hint(
+                            "a face of the box is one piece of the boundary, or a part of it",
+                        ),
                     );
                 }
                 found.push((key.content.clone(), side));
@@ -138,7 +139,9 @@ impl Reader<'_> {
 
     /// Every piece of the boundary is spoken of, those too that no face of this box is.
     fn unplaced_pieces(&mut self, table: &Table, section: &Table, functional: &Functional) {
-        let place = table.get("pieces").map_or(Place::default(), |raw| raw.place);
+        let place = table
+            .get("pieces")
+            .map_or(Place::default(), |raw| raw.place);
         for piece in &functional.pieces {
             if section.get(&piece.name).is_some() {
                 continue;
@@ -159,7 +162,9 @@ impl Reader<'_> {
         intervals: &[Interval],
         found: &[(String, Side)],
     ) {
-        let place = table.get("pieces").map_or(Place::default(), |raw| raw.place);
+        let place = table
+            .get("pieces")
+            .map_or(Place::default(), |raw| raw.place);
         let g = &scope.space.graph;
         for interval in intervals {
             let coordinate = &scope.space.coordinates[interval.axis];

@@ -123,3 +123,49 @@ fn a_hessian_that_is_definite_off_a_gap_proves_nothing() {
         assert_ne!(word, "proved", "{detail}");
     }
 }
+
+/// Of two conjugates one has a formula: that of the other follows where the gradient is linear, and is not guessed at where it is not.
+#[test]
+fn what_is_known_of_one_function_is_known_of_its_conjugate() {
+    let word = |functions: &str, density: &str, stated: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"c\"\ndensity = \"{density}\"\nyields = [\"a\", \"b\", \"c\"]\n\
+             assumptions = [\"E > 0\"]\n[domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n\
+             [fields]\nu = \"scalar\"\ne = \"scalar\"\ns = \"scalar\"\n[parameters]\nE = {{}}\n[functions]\n{functions}\n[boundary]\n\
+             \"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n[equations]\na = \"{stated}\"\n\
+             b = \"e = u,x\"\nc = \"s,x = 0\"\n"
+        );
+        let study = studied_text("p4p", &text, &[]);
+        crate::table::decided(&study, "functional.euler")
+            .word()
+            .to_owned()
+    };
+    let of_a = |value: &str| {
+        format!("A = {{ of = \"scalar\", value = \"{value}\", conjugate = \"B\" }}\nB = {{ of = \"scalar\", conjugate = \"A\" }}")
+    };
+    let of_b = "A = { of = \"scalar\", conjugate = \"B\" }\nB = { of = \"scalar\", value = \"X^2/(2 E)\", conjugate = \"A\" }";
+    let densities = ["A(e) + s (u,x - e)", "s u,x - B(s) + (e - u,x)^2"];
+    for functions in [of_a("E/2 X^2").as_str(), of_b] {
+        for density in densities {
+            for stated in ["s = E e", "s = A'(e)", "e = B'(s)", "e = s/E"] {
+                assert_eq!(
+                    word(functions, density, stated),
+                    "proved",
+                    "{functions} {density} {stated}"
+                );
+            }
+            for stated in ["s = 2 E e", "e = 2 B'(s)"] {
+                assert_eq!(
+                    word(functions, density, stated),
+                    "refuted",
+                    "{functions} {density} {stated}"
+                );
+            }
+        }
+    }
+    // s = sinh e is e = B'(s) for A = cosh e: it is true, and never refuted.
+    let functions = of_a("cosh(X)");
+    assert_eq!(word(&functions, densities[0], "s = sinh(e)"), "proved");
+    assert_eq!(word(&functions, densities[1], "s = sinh(e)"), "proved");
+    assert_ne!(word(&functions, densities[1], "s = 2 sinh(e/2) cosh(e/2)"), "refuted");
+}

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 mod admission;
+mod assumptions;
 mod bar;
 mod branches;
 mod classical;

@@ -186,7 +186,7 @@ fn mistakes_in_a_text_are_shown_with_what_to_do() {
         ),
         (
             "D_ij s_ij - F_k",
-            "u_a u_a u_b u_b u_c u_c u_f u_f u_g u_g u_h u_h u_i u_i u_j u_j u_l u_l u_m u_m u_o u_o u_p u_p u_q u_q u_r u_r u_v u_v u_w u_w u_z u_z - F_k",
+            "u_a u_a u_b u_b u_c u_c u_f u_f u_g u_g u_h u_h u_i u_i u_j u_j u_l u_l u_m u_m u_o u_o u_p u_p u_q u_q u_r u_r u_v u_v u_w u_w u_s u_s - F_k",
             "too-many-terms",
             "the sum over 17 indices",
         ),
@@ -213,6 +213,18 @@ fn mistakes_in_a_text_are_shown_with_what_to_do() {
             "imposd",
             "unknown-key",
             "did you mean `imposed`?",
+        ),
+        (
+            "D_ij s_ij - F_k u_k",
+            "D_ij s_ij + u_k,t u_k,t/2 - F_k u_k",
+            "bad-index",
+            "[domain] time = \"t\" declares it",
+        ),
+        (
+            "D_ij s_ij - F_k u_k",
+            "D_ij s_ij + u_k,yy u_k - F_k u_k",
+            "bad-index",
+            "`y` reads as a coordinate",
         ),
         (
             "Bstar(sstar)",
@@ -286,4 +298,66 @@ fn what_follows_by_differentiation_and_elimination_is_not_refuted() {
     assert_ne!(word, "refuted", "{detail}");
     let (word, detail) = gradient("h,2 h,12 = 0");
     assert_ne!(word, "proved", "{detail}");
+}
+
+/// `q(x)` is the load at x for who writes it, and would be read as q times x.
+#[test]
+fn what_depends_on_the_place_is_written_without_it() {
+    let text = |load: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"string\"\ndensity = \"1/2 u,x^2 - {load} u\"\n[domain]\ncoordinates = [\"x\"]\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\n\"x = 0\" = \"0\"\n\
+             \"x = 1\" = \"0\"\n"
+        )
+    };
+    let loaded = read_text("p4p", &text("q(x)"), &[]);
+    assert!(loaded.problem.is_none());
+    let said = loaded.diagnostics.render(Style::Plain);
+    assert!(said.contains("`q(x)` would be a product"), "{said}");
+    assert!(said.contains("write q, or q * (x)"), "{said}");
+    for load in ["q", "q * (x)", "q (1 + x)", "q x"] {
+        assert!(
+            read_text("p4p", &text(load), &[]).problem.is_some(),
+            "{load}"
+        );
+    }
+}
+
+#[test]
+fn a_gradient_is_that_of_the_value_and_of_some_function() {
+    let text = |function: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"g\"\ndensity = \"W(u) + 1/2 u_i,j u_i,j\"\n[sizes]\nd = 2\n[domain]\n\
+             coordinates = \"x_i\"\nboundary = [\"S\"]\n[fields]\nu = \"vector\"\n[functions]\nW = {{ of = \"vector\", {function} }}\n\
+             [boundary]\nS = \"0\"\n"
+        )
+    };
+    let refused = [
+        (
+            "value = \"X_i X_i\", gradient = \"3 X_i\"",
+            "not the gradient of the value",
+        ),
+        (
+            "gradient = \"epsilon_ij X_j\"",
+            "the gradient of no function",
+        ),
+    ];
+    for (function, words) in refused {
+        let loaded = read_text("p4p", &text(function), &[]);
+        assert!(loaded.problem.is_none(), "{function} is accepted");
+        let said = loaded.diagnostics.render(Style::Plain);
+        assert!(
+            said.contains("bad-gradient") && said.contains(words),
+            "{said}"
+        );
+    }
+    for function in [
+        "value = \"X_i X_i\", gradient = \"2 X_i\"",
+        "gradient = \"X_k X_k X_i\"",
+    ] {
+        assert!(
+            read_text("p4p", &text(function), &[]).problem.is_some(),
+            "{function}"
+        );
+    }
 }

@@ -198,3 +198,48 @@ fn mistakes_in_lists_and_numbers_are_shown() {
         assert!(said.contains(words), "{to}: {said}");
     }
 }
+
+/// u = x y on −1 < x, y < 1 has the slope x y along the normal on all four faces, and the value −4/3: 4/3 inside, −8/3 on the faces.
+#[test]
+fn a_piece_may_be_several_faces_of_a_box() {
+    let text = |pieces: &str, slope: &str, value: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"faces\"\ndensity = \"1/2 u,i u,i\"\n[sizes]\nd = 2\n[domain]\ncoordinates = \"x_i\"\n\
+             boundary = [\"S\", \"T\"]\n[fields]\nu = \"scalar\"\n[data]\ng = {{ kind = \"scalar\", on = \"S\" }}\n[boundary]\n\
+             S = \"-g u\"\nT = {{ fixed = [\"u\"] }}\n[solutions.own]\nintervals = {{ x_1 = [-1, 1], x_2 = [-1, 1] }}\n\
+             pieces = {{ {pieces} }}\nvalue = \"{value}\"\n[solutions.own.fields]\nu = \"x_1 x_2\"\ng = \"{slope}\"\n"
+        )
+    };
+    let all = "S = [\"x_1 = -1\", \"x_1 = 1\", \"x_2 = -1\", \"x_2 = 1\"], T = []";
+    let word = |text: &str| {
+        let study = studied_text("p4p", text, &[]);
+        let own = crate::table::decided(&study, "functional.solution");
+        (own.word(), own.detail().to_owned())
+    };
+    let (own, detail) = word(&text(all, "x_1 x_2", "-4/3"));
+    assert_eq!(own, "proved", "{detail}");
+    assert!(detail.contains("the value is -4/3"), "{detail}");
+    assert_eq!(word(&text(all, "x_1 x_2", "-2/3")).0, "refuted");
+    // True on the faces x_1 = ±1 only, so that the second face must be looked at too.
+    assert_eq!(word(&text(all, "x_1 x_2 + 1 - x_1^2", "-4/3")).0, "refuted");
+    let refused = [
+        (
+            "S = [\"x_1 = -1\", \"x_1 = 1\", \"x_2 = -1\"], T = []",
+            "the face x_2 = 1 of the box is no piece",
+        ),
+        (
+            "S = [\"x_1 = -1\", \"x_1 = 1\", \"x_2 = -1\", \"x_2 = 1\"]",
+            "where `T` lies is not stated",
+        ),
+        (
+            "S = [\"x_1 = -1\", \"x_1 = 1\", \"x_2 = -1\", \"x_2 = 1\"], T = \"x_1 = 1\"",
+            "`x_1 = 1` is a face of `S` already",
+        ),
+    ];
+    for (pieces, words) in refused {
+        let loaded = read_text("p4p", &text(pieces, "x_1 x_2", "-4/3"), &[]);
+        assert!(loaded.problem.is_none(), "{pieces} is accepted");
+        let said = loaded.diagnostics.render(Style::Plain);
+        assert!(said.contains(words), "{said}");
+    }
+}

@@ -1,0 +1,135 @@
+//! What a file assumes of fields and parameters: proofs use it and name it, and counterexamples keep to it.
+
+use crate::table::{decided, read_text, studied_text};
+use chetaev_model::Style;
+
+/// A field u on 0 < x < 1, given at both ends.
+fn text(density: &str, stated: &str, assumptions: &str, parameters: &str) -> String {
+    format!(
+        "kind = \"functional\"\nname = \"assumed\"\ndensity = \"{density}\"\nyields = [\"a\"]\nassumptions = [{assumptions}]\n\
+         [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nf = \"scalar\"\n\
+         [parameters]\nk = {{ {parameters} }}\n[boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n\
+         [equations]\na = \"{stated}\"\n"
+    )
+}
+
+const STRING: &str = "1/2 u,x^2 + f u";
+
+#[test]
+fn a_factor_that_is_assumed_not_to_vanish_is_no_branch() {
+    // Without the assumption u = −x is a counterexample.
+    for (assumptions, word) in [("", "refuted"), ("\"u,x > -1\"", "proved")] {
+        let study = studied_text(
+            "p4p",
+            &text(STRING, "(1 + u,x) (u,xx - f) = 0", assumptions, ""),
+            &[],
+        );
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), word, "{}", verdict.detail());
+    }
+}
+
+#[test]
+fn a_proof_names_what_is_assumed() {
+    let study = studied_text(
+        "p4p",
+        &text("1/2 k u,x^2 + f u", "k u,xx = f", "\"k != 0\"", ""),
+        &[],
+    );
+    match decided(&study, "functional.euler") {
+        chetaev_symbolic::Verdict::Proved(proof) => {
+            assert!(proof.on.contains("assuming k != 0"), "{}", proof.on);
+            assert!(!proof.detail.contains("k ≠ 0"), "{}", proof.detail);
+        }
+        other => panic!("{} {}", other.word(), other.detail()),
+    }
+}
+
+#[test]
+fn a_counterexample_keeps_to_what_is_assumed() {
+    // |u'| = u' where u' ≥ 0, and nowhere else but at 0.
+    let stated = "abs(u,x) + u,xx = u,x + f";
+    let word = |assumptions: &str| {
+        let study = studied_text("p4p", &text(STRING, stated, assumptions, ""), &[]);
+        decided(&study, "functional.euler").word().to_owned()
+    };
+    assert_eq!(word(""), "conditional");
+    assert_eq!(word("\"u,x >= 0\""), "proved");
+    assert_eq!(word("\"u,x < 0\""), "refuted");
+}
+
+#[test]
+fn a_determinant_is_that_of_the_components() {
+    let of = |d: &str, stated: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"det\"\ndensity = \"k det(delta_ij + u_i,j)\"\nyields = [\"a\"]\n[sizes]\nd = {d}\n\
+             [domain]\ncoordinates = \"x_i\"\nboundary = [\"S\"]\n[fields]\nu = \"vector\"\nk = \"scalar\"\n[boundary]\n\
+             S = {{ fixed = [\"u\", \"k\"] }}\n[equations]\na = \"{stated} = 0\"\n"
+        );
+        let study = studied_text("p4p", &text, &[]);
+        let all: Vec<_> = study.variation.as_ref().unwrap().euler.clone();
+        let space = &study.problem.functional.space;
+        let k = space.component_named("k").unwrap();
+        let own = all.iter().find(|(component, _)| *component == k).unwrap().1;
+        let stated = study.problem.functional.equations[0].residuals[0];
+        assert!(space.vanish(&[space.graph.sub(own, stated)]), "d = {d}");
+    };
+    of("1", "1 + u_1,1");
+    of("2", "(1 + u_1,1) (1 + u_2,2) - u_1,2 u_2,1");
+    // By the permutation symbol (Levi-Civita), which has as many indices as the space dimensions.
+    of(
+        "3",
+        "epsilon_ijk (delta_1i + u_1,i) (delta_2j + u_2,j) (delta_3k + u_3,k)",
+    );
+}
+
+#[test]
+fn assumptions_that_say_nothing_or_are_false_are_refused() {
+    let cases = [
+        (
+            "\"u,x = 1\"",
+            "",
+            "not-a-comparison",
+            "named under `imposed`",
+        ),
+        (
+            "\"k\"",
+            "",
+            "not-a-comparison",
+            "an assumption is a comparison",
+        ),
+        (
+            "\"k > 0\"",
+            "value = \"-2\"",
+            "false-assumption",
+            "is false for the values",
+        ),
+        (
+            "\"2 < 1\"",
+            "",
+            "false-assumption",
+            "is false for the values",
+        ),
+        ("\"u,i > 0\"", "", "index-mismatch", "the free index i"),
+        ("\"kk > 0\"", "", "unknown-name", "did you mean `k`?"),
+        (
+            "\"det'_ij(delta_ij) > 0\"",
+            "",
+            "prime-of-field",
+            "no derivative written with primes",
+        ),
+    ];
+    for (assumptions, parameters, code, words) in cases {
+        let loaded = read_text(
+            "p4p",
+            &text(STRING, "u,xx = f", assumptions, parameters),
+            &[],
+        );
+        assert!(loaded.problem.is_none(), "{assumptions} is accepted");
+        let said = loaded.diagnostics.render(Style::Plain);
+        assert!(
+            said.contains(code) && said.contains(words),
+            "{assumptions}:\n{said}"
+        );
+    }
+}
