@@ -30,7 +30,7 @@ class Functional:
         for section in ("data", "fields"):
             for name, own in data.get(section, {}).items():
                 scope.declare(name, own["kind"])
-        scope.functions = {name: dict(own) for name, own in data.get("functions", {}).items()}
+        scope.functions = {"det": {"of": "matrix"}, **{name: dict(own) for name, own in data.get("functions", {}).items()}}
         self.given(given, meanings or {})
         for name, own in data.get("parameters", {}).items():
             if "value" in own and name not in self.put:
@@ -47,6 +47,12 @@ class Functional:
         self.times = {c: m for own in scope.fields.values() for c, m in own}
         self.equations = {label: Equation(self, label, own) for label, own in data.get("equations", {}).items()}
         self.imposed, self.yields = ([self.equations[l] for l in data.get(key, [])] for key in ("imposed", "yields"))
+
+    def by_formulas(self):
+        """The same, in which no function is known as the conjugate of another where both have formulas."""
+        own = {name: {k: v for k, v in f.items() if k != "conjugate"} if "value" in f else f
+               for name, f in self.data["functions"].items()}
+        return Functional({**self.data, "functions": own})
 
     def given(self, special, names):
         """Values of functions become formulas; those of parameters stand for them. On the right `names` mean what they mean there."""

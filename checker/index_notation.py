@@ -24,13 +24,17 @@ def slots(kind, d):
     return {"scalar": [((), 1)], "vector": [((i,), 1) for i in range(d)],
             "symmetric": [(ij, 1 if ij[0] == ij[1] else 2) for ij in pairs(d)],
             "matrix": [(ij, 1) for ij in itertools.product(range(d), repeat=2)],
-            "elastic": [(ij + kl, 1) for ij in pairs(d) for kl in pairs(d)]}[kind]
+            "elastic": [(ij + kl, 1) for ij in pairs(d) for kl in pairs(d) if ij <= kl],
+            "minor": [(ij + kl, 1) for ij in pairs(d) for kl in pairs(d)]}[kind]
 
 
 def canonical(kind, place):
     if kind == "symmetric":
         return tuple(sorted(place))
-    return (*sorted(place[:2]), *sorted(place[2:])) if kind == "elastic" else tuple(place)
+    if kind not in ("elastic", "minor"):
+        return tuple(place)
+    own = [tuple(sorted(place[:2])), tuple(sorted(place[2:]))]
+    return sum(sorted(own) if kind == "elastic" else own, ())
 
 
 class Reader:
@@ -273,8 +277,21 @@ class Scope:
         own = self.tensors[tree[1]] if tree[0] == "name" and not tree[2] else self.components(tree)
         return tuple(own[place] for place, _ in slots(kind, self.d))
 
+    def determinant(self, tree):
+        """Of a tensor of rank two, by permutations."""
+        own = self.argument("det", tree)
+        at = lambda i, j: own[i * self.d + j]
+        def term(order):
+            out = num(self.parity(order))
+            for i, j in enumerate(order):
+                out = mul(out, at(i, j))
+            return out
+        return total(term(order) for order in itertools.permutations(range(self.d)))
+
     def applied(self, tree, place):
         _, name, primes, _, argument, _ = tree
+        if name == "det":
+            return self.determinant(argument)
         kind, args = self.functions[name]["of"], self.argument(name, argument)
         rank = len(slots(kind, self.d)[0][0])
         of = [p for p, _ in slots(kind, self.d)]

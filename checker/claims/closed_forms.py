@@ -15,8 +15,7 @@ NODES_OF_RULE = 12
 def solution(cx, verdict):
     own = cx.data["solutions"][verdict["subject"]]
     data = {**cx.data, "domain": {**cx.data["domain"], "intervals": own["intervals"]}}
-    data["boundary"] = {name: {**piece, **({"at": own["pieces"][name]} if name in own["pieces"] else {})}
-                        for name, piece in cx.data["boundary"].items()}
+    data["boundary"] = dict(faces(cx.data, own["pieces"]))
     names = set(data["fields"]) | set(data.get("data", {}))
     special = {left: right for left, right in own["fields"].items() if "(" in left or left.split("_")[0] not in names}
     data["parameters"] = {**data.get("parameters", {}), **{name: {} for name in own["parameters"]}}
@@ -44,6 +43,18 @@ def solution(cx, verdict):
         if (stated - found) % p.p:
             return "rejected", "the functional has another value"
     return "confirmed", "put into its own first variation, and integrated by a rule that is exact for polynomials modulo a prime"
+
+
+def faces(data, places):
+    """The pieces of the boundary where they lie on the box: one for each face."""
+    for name, piece in data["boundary"].items():
+        at = places.get(name)
+        if not isinstance(at, list):
+            yield name, {**piece, **({"at": at} if at else {})}
+        elif any(name in e.get("on", "") for e in data.get("equations", {}).values()):
+            raise NotCheckable("an equation on a piece that is several faces")
+        else:
+            yield from ((f"{name}: {face}", {**piece, "at": face}) for face in at)
 
 
 def integral(f, p, intervals):

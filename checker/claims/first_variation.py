@@ -9,7 +9,18 @@ WHY = "its own first variation, at random points modulo primes: {}"
 
 
 def euler(cx, verdict):
-    f = cx.functional
+    """With functions and their conjugates as symbols that undo each other; then, where that is not enough, by their formulas."""
+    found = compared(cx, cx.functional)
+    functions = cx.data.get("functions", {}).values()
+    pairs = [f for f in functions if "value" in f and "conjugate" in f]
+    if found[0] == "rejected" and pairs:
+        if any("value" not in cx.data["functions"][f["conjugate"]] for f in pairs):
+            raise NotCheckable("a function that is known by its conjugate alone")
+        return compared(cx, cx.functional.by_formulas())
+    return found
+
+
+def compared(cx, f):
     density, held = f.lagrangian()
     inside = f.euler(density[None])
     rules = held + rules_of(f, [e for e in [*f.imposed, *f.yields] if e.on is None])

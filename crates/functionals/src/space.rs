@@ -527,9 +527,7 @@ impl Space {
             let jets = self.jets_in(images).into_iter();
             found.extend(jets.map(|jet| vec![self.jet(jet.component, &jet.by)]));
         }
-        found.retain(|own| {
-            own.len() == images.len() && self.symbols_in(own).is_subset(&occurring)
-        });
+        found.retain(|own| own.len() == images.len() && self.symbols_in(own).is_subset(&occurring));
         found
     }
 

@@ -48,18 +48,16 @@ impl Claim for Legendre {
         let Some(other) = space.function_at(own.function).conjugate else {
             return Verdict::undecided("it has no conjugate").into();
         };
-        let is_stated =
-            |function: usize| space.body(function, &[], &space.slots(function)).is_some();
+        let is_stated = |function: usize| {
+            let mut all = functional.functions.iter();
+            all.any(|f| f.function == function && f.value.is_some())
+        };
+        let name = |function: usize| space.function_at(function).name;
         match space.conjugation(own.function) {
+            _ if !is_stated(other) => assumed(&name(other), &own.name),
+            _ if !is_stated(own.function) => assumed(&own.name, &own.name),
             Some(verdict) => verdict.into(),
-            None => {
-                let without = if is_stated(other) {
-                    own.function
-                } else {
-                    other
-                };
-                assumed(&space.function_at(without).name, &own.name)
-            }
+            None => assumed(&name(other), &own.name),
         }
     }
 }

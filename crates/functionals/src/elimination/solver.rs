@@ -16,7 +16,6 @@ struct Choice {
     rows: Vec<usize>,
     matrix: Vec<Vec<Expr>>,
     rest: Vec<Expr>,
-    is_constant: bool,
 }
 
 /// A group of equations in which the gradient of a function was undone by its conjugate.
@@ -301,7 +300,6 @@ impl Solved<'_> {
             rows,
             matrix,
             rest,
-            is_constant,
         })
     }
 
@@ -413,15 +411,8 @@ impl Solved<'_> {
         let Some(values) = self.solution(&choice.matrix, &choice.rest) else {
             return false;
         };
-        if let (true, Some(jet)) = (choice.is_constant, choice.jets.first()) {
-            self.note_nonzero(&choice.matrix, Some(jet.component));
-        }
-        if !choice.is_constant {
-            if let Some(jet) = choice.jets.first() {
-                let tensor = self.space.component_at(jet.component).tensor;
-                let has_fields = self.has_fields(&choice.matrix.concat());
-                self.note_pivot(Pivot { tensor, has_fields });
-            }
+        if let Some(jet) = choice.jets.first() {
+            self.note_divisors(&choice.matrix, jet.component);
         }
         for (jet, value) in choice.jets.into_iter().zip(values) {
             let reach = self.reach(&jet);
@@ -496,6 +487,19 @@ impl Solved<'_> {
             }
         }
         None
+    }
+
+    /// What must not vanish so that a matrix is regular, with functions as their formulas.
+    fn note_divisors(&mut self, matrix: &[Vec<Expr>], component: usize) {
+        let of_row = |row: &Vec<Expr>| row.iter().map(|&e| self.space.explicit(e)).collect();
+        let matrix: Vec<Vec<Expr>> = matrix.iter().map(of_row).collect();
+        let has_fields = self.has_fields(&matrix.concat());
+        if !has_fields && matrix.iter().all(|row| self.is_free(row)) {
+            self.note_nonzero(&matrix, Some(component));
+        } else {
+            let tensor = self.space.component_at(component).tensor;
+            self.note_pivot(Pivot { tensor, has_fields });
+        }
     }
 
     fn note_pivot(&mut self, pivot: Pivot) {

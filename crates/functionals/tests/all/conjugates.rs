@@ -167,5 +167,8 @@ fn what_is_known_of_one_function_is_known_of_its_conjugate() {
     let functions = of_a("cosh(X)");
     assert_eq!(word(&functions, densities[0], "s = sinh(e)"), "proved");
     assert_eq!(word(&functions, densities[1], "s = sinh(e)"), "proved");
-    assert_ne!(word(&functions, densities[1], "s = 2 sinh(e/2) cosh(e/2)"), "refuted");
+    assert_ne!(
+        word(&functions, densities[1], "s = 2 sinh(e/2) cosh(e/2)"),
+        "refuted"
+    );
 }

@@ -60,6 +60,11 @@ fn functional(text: &mut String, prefix: &str, own: &Functional) {
     }
     line(
         text,
+        "assumptions",
+        &array(own.assumptions.iter().map(|s| quoted(s))),
+    );
+    line(
+        text,
         "symmetries",
         &array(own.symmetries.iter().map(|s| quoted(s))),
     );
@@ -265,8 +270,22 @@ fn special(values: &[Special]) -> String {
 }
 
 fn stated_solution(text: &mut String, own: &Functional, solution: &Solution) {
-    let pieces = solution.pieces.iter();
-    let pieces = pieces.filter_map(|(name, at)| Some((name.clone(), quoted(&side(own, at)?))));
+    let pieces = own.pieces.iter().filter_map(|piece| {
+        let mut here = solution
+            .pieces
+            .iter()
+            .filter(|(name, _)| *name == piece.name);
+        let faces: Vec<String> = here
+            .by_ref()
+            .filter_map(|(_, at)| Some(quoted(&side(own, at)?)))
+            .collect();
+        let is_known = solution.has_pieces || !faces.is_empty();
+        let value = match &faces[..] {
+            [one] => one.clone(),
+            all => array(all.iter().cloned()),
+        };
+        is_known.then(|| (piece.name.clone(), value))
+    });
     let mut entries = vec![
         (
             "parameters".to_owned(),

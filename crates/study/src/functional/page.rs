@@ -235,14 +235,23 @@ fn densities(f: &Functional) -> EquationSection {
     EquationSection {
         id: "densities".into(),
         title: "The functional".into(),
-        explanation: vec![
+        explanation: [
             "The sum of the integrals of these densities is to be stationary; an index that occurs twice is summed over.".into(),
-        ],
+        ]
+        .into_iter()
+        .chain(assumed(f))
+        .collect(),
         equations: [whole].into_iter().chain(pieces).collect(),
         definitions: definitions.collect(),
         is_unnumbered: true,
         ..EquationSection::default()
     }
+}
+
+/// What is assumed, in a sentence.
+fn assumed(f: &Functional) -> Option<String> {
+    let own: Vec<String> = f.assumptions.iter().map(|own| format!("`{own}`")).collect();
+    (!own.is_empty()).then(|| format!("Assumed is {}.", own.join(" and ")))
 }
 
 /// Euler equations, in index notation and in components.

@@ -150,6 +150,9 @@ fn heading(text: &mut String, study: &Study, style: Style) {
     for field in &f.data {
         line(text, "given", &described(field));
     }
+    for own in &f.assumptions {
+        line(text, "assumed", own);
+    }
     for own in f.functions.iter().filter(|own| !own.description.is_empty()) {
         line(
             text,
