@@ -8,9 +8,10 @@
 //! that do not raise the order. Before something is said not to follow, the others are taken too, up to [`Solved::highest`]: what
 //! follows by differentiation and elimination is no counterexample, and where conditions beyond that order are left nothing is refuted.
 //!
-//! Which jet of an equation is solved for is chosen by what it costs, not by a ranking of all jets (C. Riquier 1910), so that rules may
-//! lead back to each other. Such a circle is cut where it closes: what is proved remains so, since a rule that is not used takes nothing
-//! away, but what is left over is no normal form, and nothing is refuted with it.
+//! Which jet of an equation is solved for is chosen by what it costs, and so that there is a ranking of all jets (C. Riquier 1910) in which
+//! it is the highest; see [`ranking`]. Where there is none, rules may lead back to each other, or hide a condition. A circle is cut where it
+//! closes: what is proved remains so, since a rule that is not used takes nothing away, but what is left over is no normal form, and nothing
+//! is refuted with it.
 //!
 //! A product is not solved: it vanishes where one of its factors does, and on open sets that are dense together one factor does
 //! identically, so that each is a case of its own ([`Solved::cases`]).
@@ -19,8 +20,10 @@
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
 mod consequences;
+mod ranking;
 mod solver;
 
+use self::ranking::Ranking;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
@@ -60,6 +63,8 @@ pub struct Solved<'s> {
     known: RefCell<BTreeMap<Jet, Expr>>,
     /// The jets whose values are being computed, each for that of the one before.
     open: RefCell<Vec<Jet>>,
+    /// In which every rule gives a jet by lower ones; none where there is no such ranking.
+    ranking: Option<Ranking>,
     /// Whether rules led back to each other.
     is_circular: Cell<bool>,
     judged: RefCell<BTreeMap<Expr, bool>>,
@@ -142,6 +147,7 @@ impl<'s> Solved<'s> {
             prolonged: RefCell::default(),
             known: RefCell::default(),
             open: RefCell::default(),
+            ranking: Some(Ranking::by_order(space)),
             is_circular: Cell::new(false),
             judged: RefCell::default(),
             factors: RefCell::default(),
@@ -420,7 +426,7 @@ impl<'s> Solved<'s> {
                 "",
                 "it is a multiple of an equation that holds, by a factor without fields",
             )),
-            _ if self.is_circular() => circular(),
+            _ if self.is_circular() || !self.is_ranked() => circular(),
             _ => match self.contradicted(self.space.explicit(own)) {
                 Verdict::Refuted(found) => self.confirmed(e, found),
                 other => other,
@@ -455,7 +461,7 @@ impl<'s> Solved<'s> {
                     "it is a multiple of a condition of integrability",
                 ))
             }
-            _ if full.is_circular() => return circular(),
+            _ if full.is_circular() || !full.is_ranked() => return circular(),
             _ => {}
         }
         let is_settled = self

@@ -6,6 +6,7 @@ use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::zero::{generic_rank, Options, Pivots, RankTest};
 use chetaev_symbolic::{rational, Expr, Node};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A way to solve a group.
@@ -27,9 +28,13 @@ struct Undone {
     matrix: Vec<Vec<Expr>>,
 }
 
-/// How dear a way is: its class, whether another tensor is preferred, whether components stay open, how hard the solution is,
-/// and the place of the group.
-type Cost = (u8, bool, bool, u8, usize);
+/// How dear a way is: its class, whether another tensor is preferred, whether components stay open, how the jets lie among the derivatives,
+/// how hard the solution is, and the place of the group.
+type Cost = (u8, bool, bool, Place, u8, usize);
+
+/// Whether no ranking has them above what they are given by; whether other derivatives of a component have rules, with which these have to
+/// agree; and how many times is differentiated: a leading derivative is solved for, so that few of its derivatives are needed.
+type Place = (bool, bool, Reverse<usize>);
 
 /// Classes: data and fields without derivatives go first, those with constant coefficients before others, then conjugates.
 const CONSTANT_DATA: u8 = 0;
@@ -144,16 +149,35 @@ impl Solved<'_> {
         }
     }
 
-    /// Whether all jets of something assumed occur in an expression, so that it may be a factor of it.
+    /// Whether something assumed may be a factor of an expression, as this vanishes where that does.
     fn may_have_assumed_factors(&self, e: Expr) -> bool {
         let own = self.space.jets_in(&[e]);
         let assumptions = self.space.assumptions();
         let mut assumed = assumptions.list().iter();
         assumed.any(|assumed| {
-            let sides = [self.normal(assumed.left), self.normal(assumed.right)];
-            let jets = self.space.jets_in(&sides);
-            !jets.is_empty() && jets.is_subset(&own)
+            let difference = self.space.graph.sub(assumed.left, assumed.right);
+            let difference = self.normal(difference);
+            let jets = self.space.jets_in(&[difference]);
+            !jets.is_empty() && jets.is_subset(&own) && self.vanishes_with(e, difference, &jets)
         })
+    }
+
+    /// Whether an expression vanishes where another does that is linear in a jet; taken to be so where it is linear in none.
+    fn vanishes_with(&self, e: Expr, other: Expr, jets: &BTreeSet<Jet>) -> bool {
+        let space = self.space;
+        let g = &space.graph;
+        let slope = |jet: &Jet| space.partial(other, jet);
+        let Some(jet) = jets
+            .iter()
+            .find(|jet| !space.jets_in(&[slope(jet)]).contains(jet))
+        else {
+            return true;
+        };
+        let at = |value: Expr, e: Expr| {
+            space.replace(e, &|symbol| (space.as_jet(symbol).as_ref() == Some(jet)).then_some(value))
+        };
+        let root = g.neg(g.div(at(g.zero(), other), slope(jet)));
+        space.vanish(&[at(root, e)])
     }
 
     /// Leaves out jets that occur in what is left although nothing depends on them; whether there were any.
@@ -184,7 +208,7 @@ impl Solved<'_> {
             for jets in self.blocks(&group.equations) {
                 let cost = match &best {
                     Some(best) => best.cost,
-                    None => (u8::MAX, true, true, u8::MAX, 0),
+                    None => (u8::MAX, true, true, (true, true, Reverse(0)), u8::MAX, 0),
                 };
                 if let Some(choice) = self.choice(at, &group.equations, jets, cost) {
                     best = Some(choice);
@@ -229,7 +253,9 @@ impl Solved<'_> {
             (false, _) => CONSTANT_DERIVATIVE,
         };
         let is_other = !self.preferred.is_empty() && !self.preferred.contains(&component.tensor);
-        if (hoped, is_other, false, 0, group) >= least {
+        let has_rule = |jet: &Jet| self.rules.iter().any(|r| r.jet.component == jet.component);
+        let place = (false, jets.iter().any(has_rule), Reverse(first.by.len()));
+        if (hoped, is_other, false, place, 0, group) >= least {
             return None;
         }
         // Where derivatives stand beside them only the solution zero is one.
@@ -264,7 +290,7 @@ impl Solved<'_> {
         let is_open = columns.len() < jets.len();
         if columns.is_empty()
             || (has_derivatives && is_open)
-            || (class, is_other, is_open, 0, group) >= least
+            || (class, is_other, is_open, place, 0, group) >= least
         {
             return None;
         }
@@ -289,7 +315,11 @@ impl Solved<'_> {
         } else {
             2
         };
-        let cost = (class, is_other, is_open, effort, group);
+        if (class, is_other, is_open, place, effort, group) >= least {
+            return None;
+        }
+        let place = (!self.may_lead(&chosen, &matrix, &rest), place.1, place.2);
+        let cost = (class, is_other, is_open, place, effort, group);
         if cost >= least {
             return None;
         }
@@ -301,6 +331,14 @@ impl Solved<'_> {
             matrix,
             rest,
         })
+    }
+
+    /// Whether jets may be above all others in their equations.
+    fn may_lead(&self, chosen: &[Jet], matrix: &[Vec<Expr>], rest: &[Expr]) -> bool {
+        let mut others = self.space.jets_in(rest);
+        others.extend(self.space.jets_in(&matrix.concat()));
+        let all = chosen.iter().map(|jet| (jet.clone(), others.clone()));
+        self.ranking_with(all.collect()).is_some()
     }
 
     /// Whether what would be divided by may vanish in a case of a product that is left: what such a one says is known in each case only.
@@ -418,6 +456,7 @@ impl Solved<'_> {
             let reach = self.reach(&jet);
             self.rules.push(Rule { jet, value, reach });
         }
+        self.ranking = self.ranking_with(Vec::new());
         self.known.borrow_mut().clear();
         let group = &mut self.left[choice.group];
         let mut row = 0;
