@@ -531,6 +531,20 @@ impl Space {
         found
     }
 
+    /// Whether an expression vanishes at random points of prime fields, so that a proof of it is worth its time.
+    pub(crate) fn seems_to_vanish(&self, e: Expr) -> bool {
+        let (residuals, assumptions) = ([e], Assumptions::new());
+        let test = ZeroTest {
+            options: Options {
+                refute: false,
+                exact: false,
+                ..Options::default()
+            },
+            ..ZeroTest::everywhere(&residuals, &assumptions)
+        };
+        matches!(decide_zero(&self.graph, &test), Verdict::Proved(_))
+    }
+
     /// Whether all expressions are proved to vanish identically in the symbols that occur.
     pub fn vanish(&self, residuals: &[Expr]) -> bool {
         matches!(self.vanishing(residuals, false), Verdict::Proved(_))

@@ -68,6 +68,8 @@ pub struct Solved<'s> {
     /// Whether rules led back to each other.
     is_circular: Cell<bool>,
     judged: RefCell<BTreeMap<Expr, bool>>,
+    /// Whether expressions vanish where others do.
+    together: RefCell<BTreeMap<(Expr, Expr), bool>>,
     /// The factors of equations.
     factors: RefCell<BTreeMap<Expr, Vec<Expr>>>,
     /// Equations that are left, with their labels.
@@ -150,6 +152,7 @@ impl<'s> Solved<'s> {
             ranking: Some(Ranking::by_order(space)),
             is_circular: Cell::new(false),
             judged: RefCell::default(),
+            together: RefCell::default(),
             factors: RefCell::default(),
             left: Vec::new(),
             pivots: Vec::new(),

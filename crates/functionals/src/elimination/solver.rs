@@ -164,6 +164,15 @@ impl Solved<'_> {
 
     /// Whether an expression vanishes where another does that is linear in a jet; taken to be so where it is linear in none.
     fn vanishes_with(&self, e: Expr, other: Expr, jets: &BTreeSet<Jet>) -> bool {
+        if let Some(&known) = self.together.borrow().get(&(e, other)) {
+            return known;
+        }
+        let found = self.vanishes_at_root(e, other, jets);
+        self.together.borrow_mut().insert((e, other), found);
+        found
+    }
+
+    fn vanishes_at_root(&self, e: Expr, other: Expr, jets: &BTreeSet<Jet>) -> bool {
         let space = self.space;
         let g = &space.graph;
         let slope = |jet: &Jet| space.partial(other, jet);
@@ -174,10 +183,12 @@ impl Solved<'_> {
             return true;
         };
         let at = |value: Expr, e: Expr| {
-            space.replace(e, &|symbol| (space.as_jet(symbol).as_ref() == Some(jet)).then_some(value))
+            space.replace(e, &|symbol| {
+                (space.as_jet(symbol).as_ref() == Some(jet)).then_some(value)
+            })
         };
         let root = g.neg(g.div(at(g.zero(), other), slope(jet)));
-        space.vanish(&[at(root, e)])
+        space.seems_to_vanish(at(root, e))
     }
 
     /// Leaves out jets that occur in what is left although nothing depends on them; whether there were any.
