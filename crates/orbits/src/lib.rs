@@ -8,6 +8,7 @@
 //! 4. [`branch`]: continuation by pseudo-arclength (Keller 1977), across the families that the equations have by structure; [`equilibria`] and
 //!    [`periodic`] say of what.
 //! 5. [`hopf`]: the first Lyapunov coefficient where a pair of eigenvalues passes the imaginary axis.
+//! 6. [`mode`]: motions of the linear equations about a steady motion, in all coordinates.
 //!
 //! All here is numerical: nothing is proved, and values are located to rounding.
 
@@ -17,6 +18,7 @@ pub mod equilibria;
 pub mod error;
 pub mod flow;
 pub mod hopf;
+pub mod mode;
 pub mod multipliers;
 pub mod periodic;
 pub mod sensitivity;

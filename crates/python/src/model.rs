@@ -543,14 +543,16 @@ impl Model {
     ) -> PyResult<(String, String, String)> {
         let found = waiting::done(py, tell, |hooks| {
             interruptible(hooks, |hooks| {
-                (hooks.progress)("map of stability", None);
+                let what = "map of stability";
+                (hooks.progress)(what, None);
                 let wanted = stability::Wanted {
                     about,
                     at,
                     over: Some(over),
                     ..stability::Wanted::default()
                 };
-                stability::map::map(&self.model, &wanted).map_err(Box::new)
+                let mut tell = |part| (hooks.progress)(what, Some(part));
+                stability::map::map(&self.model, &wanted, &mut tell).map_err(Box::new)
             })
         })?;
         match found.result {

@@ -4,14 +4,54 @@
 function setUpAnimation() {
   const figure = find("#animation");
   const scene = data.animation;
-  if (figure && scene?.times.length) new Player(figure, scene);
+  if (figure && scene?.times.length) new Player(figure, scene, clock).begin();
   else if (data.trajectory?.times.length) clock.set(data.trajectory.times[0]);
 }
 
+function setUpAlbums() {
+  for (const figure of findAll("[data-album]")) {
+    const pictures = data.albums?.[Number(figure.dataset.album)];
+    if (pictures?.length && !find("canvas", figure)) new Album(figure, pictures);
+  }
+}
+
+/** Moving pictures of which one is shown, each with a time of its own. */
+class Album {
+  constructor(figure, pictures) {
+    this.figure = figure;
+    this.pictures = pictures;
+    const label = make("label", { class: "choice" }, null, `${figure.dataset.choice} `);
+    figure.prepend(label);
+    this.choice = make("select", {}, label);
+    pictures.forEach(({ name }, i) => make("option", { value: i }, this.choice, name));
+    this.choice.addEventListener("change", () => this.show(Number(this.choice.value)));
+    this.frame = make("div");
+    label.after(this.frame);
+    this.said = make("p", { class: "hint", "aria-live": "polite" }, null);
+    this.frame.after(this.said);
+    this.show(0);
+  }
+
+  show(i) {
+    const isPlaying = this.player?.playing ?? false;
+    this.player?.end();
+    this.frame.replaceChildren();
+    this.said.textContent = this.pictures[i].explanation;
+    this.player = new Player(this.frame, this.pictures[i].animation, newClock());
+    const { player } = this;
+    player.repeat.checked = true;
+    // What matters is the body beside its place, not how far both travel.
+    player.follow.checked = player.scene.bodySize > 0 && player.scene.bodySize < player.scene.size / 6;
+    player.paint();
+    player.setPlaying(isPlaying);
+  }
+}
+
 class Player {
-  constructor(figure, spec) {
+  constructor(figure, spec, ownClock) {
     this.figure = figure;
     this.spec = spec;
+    this.clock = ownClock;
     this.scene = new Scene(spec);
     this.camera = new Camera(this.scene, spec.camera);
     this.first = this.scene.times[0];
@@ -19,8 +59,15 @@ class Player {
     this.build();
     this.listen();
     this.readColors();
-    clock.set(this.first);
-    this.begin();
+    this.clock.set(this.first);
+  }
+
+  /** Stops for good: another picture takes the place. */
+  end() {
+    this.setPlaying(false);
+    this.clock.listeners.length = 0;
+    const place = themed.indexOf(this.repaint);
+    if (place >= 0) themed.splice(place, 1);
   }
 
   build() {
@@ -33,7 +80,7 @@ class Player {
     this.stage.after(bar);
     this.playButton = make("button", { type: "button", class: "play" }, bar);
     this.slider = make("input", {
-      type: "range", id: "time-slider", min: this.first, max: this.last, step: "any", value: this.first, "aria-label": words.time,
+      type: "range", ...(this.clock === clock ? { id: "time-slider" } : {}), min: this.first, max: this.last, step: "any", value: this.first, "aria-label": words.time,
     }, bar);
     this.clockText = make("span", { class: "time" }, bar);
     const options = make("div", { class: "options" });
@@ -71,7 +118,7 @@ class Player {
       });
       button.disabled = true;
       this.repeat.checked = false;
-      clock.set(this.first);
+      this.clock.set(this.first);
       recorder.start();
       this.setPlaying(true);
       const wait = setInterval(() => {
@@ -121,17 +168,18 @@ class Player {
     const observer = new IntersectionObserver((entries) => {
       if (!entries.at(-1).isIntersecting) return;
       observer.disconnect();
-      if (clock.time === this.first) this.setPlaying(true);
+      if (this.clock.time === this.first) this.setPlaying(true);
     }, { threshold: 0.5 });
     observer.observe(this.canvas);
   }
 
   listen() {
-    clock.listeners.push((time) => this.show(time));
-    themed.push(() => { this.readColors(); this.paint(); });
+    this.clock.listeners.push((time) => this.show(time));
+    this.repaint = () => { this.readColors(); this.paint(); };
+    themed.push(this.repaint);
     new ResizeObserver(() => this.resize()).observe(this.stage);
     this.playButton.addEventListener("click", () => this.setPlaying(!this.playing));
-    this.slider.addEventListener("input", () => { this.setPlaying(false); clock.set(Number(this.slider.value)); });
+    this.slider.addEventListener("input", () => { this.setPlaying(false); this.clock.set(Number(this.slider.value)); });
     this.follow.addEventListener("change", () => { this.camera.reset(); this.paint(); });
     this.resetButton.addEventListener("click", () => this.resetView());
     this.canvas.addEventListener("dblclick", () => this.resetView());
@@ -179,12 +227,12 @@ class Player {
 
   key(event) {
     const step = (this.last - this.first) / (event.shiftKey ? 20 : 200);
-    const to = (time) => { this.setPlaying(false); clock.set(Math.max(this.first, Math.min(this.last, time))); };
+    const to = (time) => { this.setPlaying(false); this.clock.set(Math.max(this.first, Math.min(this.last, time))); };
     const middle = this.camera.center;
     switch (event.key) {
       case " ": this.setPlaying(!this.playing); break;
-      case "ArrowLeft": to(clock.time - step); break;
-      case "ArrowRight": to(clock.time + step); break;
+      case "ArrowLeft": to(this.clock.time - step); break;
+      case "ArrowRight": to(this.clock.time + step); break;
       case "Home": to(this.first); break;
       case "End": to(this.last); break;
       case "+": case "=": this.zoomAbout(middle, 1.3); break;
@@ -201,19 +249,19 @@ class Player {
     this.playButton.setAttribute("aria-label", playing ? words.pause : words.play);
     this.playButton.title = playing ? words.pause : words.play;
     if (!playing) return;
-    if (clock.time >= this.last) clock.set(this.first);
+    if (this.clock.time >= this.last) this.clock.set(this.first);
     let before = null;
     const advance = (now) => {
       if (!this.playing) return;
       // A page that was hidden does not jump.
       const passed = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
       before = now;
-      let time = clock.time + passed * Number(this.speed.value);
+      let time = this.clock.time + passed * Number(this.speed.value);
       if (time >= this.last) {
         if (this.repeat.checked) time = this.first;
         else { time = this.last; this.setPlaying(false); }
       }
-      clock.set(time);
+      this.clock.set(time);
       requestAnimationFrame(advance);
     };
     requestAnimationFrame(advance);
@@ -261,7 +309,7 @@ class Player {
   paint() {
     if (!this.width) return;
     const { canvas, scene } = this;
-    const time = Number.isFinite(clock.time) ? clock.time : this.first;
+    const time = Number.isFinite(this.clock.time) ? this.clock.time : this.first;
     const g = canvas.getContext("2d");
     this.g = g;
     g.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);

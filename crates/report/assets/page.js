@@ -79,14 +79,19 @@ function niceStep(low, high, count) {
 }
 
 /** The time that the animation and the cursors of all plots share. */
-const clock = {
-  time: NaN,
-  listeners: [],
-  set(time) {
-    this.time = time;
-    for (const listener of this.listeners) listener(time);
-  },
-};
+const clock = newClock();
+
+/** A time with those who follow it. */
+function newClock() {
+  return {
+    time: NaN,
+    listeners: [],
+    set(time) {
+      this.time = time;
+      for (const listener of this.listeners) listener(time);
+    },
+  };
+}
 
 /** What must be drawn again when the colors change. */
 const themed = [];
@@ -311,5 +316,6 @@ function start() {
   setUpPrinting();
   setUpPlots();
   setUpAnimation();
+  setUpAlbums();
 }
 

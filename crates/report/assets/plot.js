@@ -14,7 +14,7 @@ function setUpPlots() {
   const times = motion ? numbers(motion.times) : null;
   for (const figure of findAll("[data-plot]")) {
     const spec = data.plots[Number(figure.dataset.plot)];
-    if (spec) new Plot(figure, spec, curves, times);
+    if (spec && !find("svg", figure)) new Plot(figure, spec, curves, times);
   }
 }
 

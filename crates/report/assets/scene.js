@@ -10,7 +10,7 @@ class Scene {
     this.elements = scene.elements.map((element, i) => ({
       ...element,
       ...element.shape,
-      stride: data.strides[i],
+      stride: (scene.strides ?? data.strides)[i],
       values: numbers(element.values),
     }));
     this.bounds = scene.bounds ?? this.findBounds();

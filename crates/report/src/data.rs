@@ -73,6 +73,38 @@ pub struct Table {
     pub headings: Vec<String>,
     /// Its rows.
     pub rows: Vec<TableRow>,
+    /// Figures under it.
+    pub figures: Vec<Figure>,
+    /// Pictures of functions of two variables under it.
+    pub maps: Vec<Map>,
+    /// Moving pictures under it.
+    pub album: Option<Album>,
+}
+
+/// Moving pictures of which the reader chooses one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Album {
+    /// Heading.
+    pub title: String,
+    /// What they show, one paragraph each.
+    pub explanation: Vec<String>,
+    /// What the reader chooses among, in a word.
+    pub choice: String,
+    /// The pictures, the first of which is shown at first.
+    pub pictures: Vec<Shown>,
+}
+
+/// A moving picture of an album.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Shown {
+    /// Its name in the list.
+    pub name: String,
+    /// What it shows, a sentence.
+    pub explanation: String,
+    /// The picture.
+    pub animation: Animation,
 }
 
 /// A row of a table.
@@ -121,6 +153,24 @@ pub struct Map {
     /// Values at the middles of cells, the lowest row first.
     #[serde(with = "crate::number::vector")]
     pub values: Vec<f64>,
+    /// What it means where there is no value.
+    pub absent: Option<String>,
+    /// Curves drawn over it.
+    pub outlines: Vec<Outline>,
+    /// Both variables do not compare, so that the sides of the picture are not theirs.
+    pub is_unscaled: bool,
+}
+
+/// A curve over a map.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Outline {
+    /// What it is, written under the map once for all of this name.
+    pub name: String,
+    /// Its color.
+    pub tint: Tint,
+    /// Its points, in the variables of the map.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// A labelled value.

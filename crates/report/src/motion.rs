@@ -1,9 +1,11 @@
 //! The computed motion: places for the plots, statistics, integrals and drifts in tables.
 
 use crate::claims;
-use crate::data::{Conserved, Figure, Report, Series, SeriesGroup, Trajectory};
+use crate::data::{Conserved, Report, Series, SeriesGroup, Trajectory};
 use crate::equations::inline;
+use crate::figure::drawn;
 use crate::html::{fragment, Html};
+use crate::maps::maps;
 use crate::number::{brief, readable};
 use crate::payload::{label, Payload, PlotKind};
 use crate::prose::{capitalized, name, paragraphs, sentence};
@@ -62,22 +64,8 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
         drawn(html, figure, index, report, words);
     }
     html.raw("</div>\n");
-    crate::tables::maps(html, report);
+    maps(html, &report.maps);
     html.raw("</details>\n</section>\n");
-}
-
-/// A figure with its words; the script draws into it.
-fn drawn(html: &mut Html, figure: &Figure, index: usize, report: &Report, words: &Words) {
-    html.raw("<figure class=\"plot\"")
-        .attribute("data-plot", index)
-        .wrap("><figcaption><h4>", &figure.title, "</h4>");
-    paragraphs(html, &figure.explanation);
-    if let Some(claim) = &figure.claim {
-        html.wrap("<p>", words.proved_by, ": ");
-        claims::reference(html, claim, report, words);
-        html.raw("</p>");
-    }
-    html.raw("</figcaption></figure>\n");
 }
 
 /// The section of the comparison: the story, what chose the other curve, both paths, the distance.

@@ -40,7 +40,7 @@ pub(crate) fn page(report: &Report, words: &'static Words) -> String {
     if system::is_present(report) {
         system::section(&mut html, report, words);
     }
-    tables::sections(&mut html, report);
+    tables::sections(&mut html, report, &payload, words);
     claims::section(&mut html, report, words);
     motion::figures(&mut html, report, &payload, words);
     if let Some(model) = &report.model {

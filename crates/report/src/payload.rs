@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::data::{Animation, Report, Series, SeriesGroup, Shape, Tint, Trajectory};
+use crate::data::{Album, Animation, Report, Series, SeriesGroup, Shape, Tint, Trajectory};
 use crate::html::Safe;
 use crate::thinning::{even, pick, rows};
 use crate::words::{fill, look_up, Words};
@@ -17,6 +17,8 @@ const MARKS: usize = 256;
 const SAMPLES: usize = 1_500;
 /// Numbers in all curves, and as many in the animation: about a megabyte each.
 const NUMBERS: usize = 100_000;
+/// A motion of fewer frames is not seen.
+const FRAMES: usize = 40;
 /// Drawn elements of the animation.
 const ELEMENTS: usize = 300;
 
@@ -32,6 +34,17 @@ pub(crate) struct Payload<'a> {
     animation: Option<Frames<'a>>,
     /// Numbers per frame of each element of the animation.
     strides: Vec<usize>,
+    /// The moving pictures of each album.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    albums: Vec<Vec<Pictured<'a>>>,
+}
+
+/// A moving picture of an album.
+#[derive(Serialize)]
+struct Pictured<'a> {
+    name: &'a str,
+    explanation: &'a str,
+    animation: Frames<'a>,
 }
 
 #[derive(Serialize)]
@@ -60,6 +73,9 @@ struct Frames<'a> {
     #[serde(serialize_with = "crate::number::rounded::fine")]
     times: Vec<f64>,
     elements: Vec<Drawn<'a>>,
+    /// Numbers per frame of each element, in an album.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    strides: Option<Vec<usize>>,
     bounds: &'a Option<Vec<[f64; 2]>>,
     ground: bool,
     camera: &'a Option<[f64; 2]>,
@@ -116,6 +132,8 @@ pub(crate) enum PlotKind {
     Figure,
     /// A figure of the comparison.
     Comparison,
+    /// A figure under a table.
+    Table,
 }
 
 /// Samples of a portrait.
@@ -208,10 +226,16 @@ impl<'a> Payload<'a> {
         plots.extend(report.figures.iter().map(|f| figure(f, PlotKind::Figure)));
         let compared = report.comparison.iter().flat_map(|c| &c.figures);
         plots.extend(compared.map(|f| figure(f, PlotKind::Comparison)));
+        let of_tables = report.tables.iter().flat_map(|table| &table.figures);
+        plots.extend(of_tables.map(|f| figure(f, PlotKind::Table)));
+        let albums = report
+            .tables
+            .iter()
+            .filter_map(|table| table.album.as_ref());
         let (animation, strides) = report
             .animation
             .as_ref()
-            .map(frames)
+            .map(|animation| frames(animation, NUMBERS))
             .map_or((None, Vec::new()), |(f, s)| (Some(f), s));
         Self {
             words: &words.script,
@@ -219,6 +243,7 @@ impl<'a> Payload<'a> {
             plots,
             strides,
             animation,
+            albums: albums.map(pictured).collect(),
         }
     }
 
@@ -293,8 +318,25 @@ fn drawn_motion<'a>(trajectory: &'a Trajectory, plots: &mut [Plot<'a>]) -> Motio
     }
 }
 
-/// The frames that are shown, and the numbers that each element has in one of them.
-fn frames(animation: &Animation) -> (Frames<'_>, Vec<usize>) {
+/// The pictures of an album, which have together as many numbers as the animation may have.
+fn pictured(album: &Album) -> Vec<Pictured<'_>> {
+    let own = NUMBERS / album.pictures.len().max(1);
+    let shown = album.pictures.iter().map(|picture| {
+        let (frames, strides) = frames(&picture.animation, own);
+        Pictured {
+            name: &picture.name,
+            explanation: &picture.explanation,
+            animation: Frames {
+                strides: Some(strides),
+                ..frames
+            },
+        }
+    });
+    shown.collect()
+}
+
+/// The frames that are shown, with about so many numbers, and the numbers that each element has in one of them.
+fn frames(animation: &Animation, numbers: usize) -> (Frames<'_>, Vec<usize>) {
     let mut total = 0;
     let drawn: Vec<_> = animation
         .elements
@@ -307,7 +349,7 @@ fn frames(animation: &Animation) -> (Frames<'_>, Vec<usize>) {
         })
         .collect();
     let width: usize = drawn.iter().map(|(_, stride)| stride).sum();
-    let limit = (NUMBERS / width.max(1)).clamp(2, SAMPLES);
+    let limit = (numbers / width.max(1)).clamp(FRAMES, SAMPLES);
     let kept = even(animation.times.len(), limit);
     let elements = drawn.iter().map(|(element, stride)| Drawn {
         name: &element.name,
@@ -325,6 +367,7 @@ fn frames(animation: &Animation) -> (Frames<'_>, Vec<usize>) {
         spatial: animation.spatial,
         elements: elements.collect(),
         times: pick(&animation.times, &kept),
+        strides: None,
         bounds: &animation.bounds,
         ground: animation.ground,
         camera: &animation.camera,

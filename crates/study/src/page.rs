@@ -5,6 +5,7 @@ mod comparison;
 mod default_drawing;
 mod drawing;
 mod equations;
+mod modes;
 mod motion;
 mod steady;
 
@@ -32,9 +33,7 @@ pub fn page(study: &Study, command: Option<String>, files: &[String]) -> String 
 pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Report {
     let model = &study.model;
     let set = Typesetter::new(&study.system);
-    let (steady, eigenvalues) = steady::section(study);
     let of_motion = study.motion.as_ref().map(motion::figures);
-    let figures = eigenvalues.into_iter();
     Report {
         title: title(&model.name),
         subtitle: Some(subtitle(study)),
@@ -53,7 +52,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
         parameters: parameters(study, &set),
         assumptions: assumptions(study, &set),
         initial: initial(study, &set),
-        tables: steady.into_iter().collect(),
+        tables: steady::section(study).into_iter().collect(),
         maps: Vec::new(),
         sections: equations::sections(study, &set),
         claims: study
@@ -65,7 +64,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             .motion
             .as_ref()
             .map(|m| motion::trajectory(study, m, &set, files)),
-        figures: figures.chain(of_motion.unwrap_or_default()).collect(),
+        figures: of_motion.unwrap_or_default(),
         comparison: study
             .motion
             .as_ref()

@@ -22,6 +22,7 @@ pub mod matrix;
 pub mod meter;
 pub mod node;
 pub mod number;
+pub mod parallel;
 pub mod polynomial;
 pub mod print;
 pub mod quadratic_factors;

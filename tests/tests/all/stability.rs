@@ -5,6 +5,8 @@
     reason = "test code fails where it stands"
 )]
 
+use chetaev::study::stability::map::{Asked, Course};
+use chetaev::study::stability::Wanted;
 use chetaev_tests::places::root;
 use chetaev_tests::program::{run, text};
 use serde_json::Value;
@@ -378,7 +380,99 @@ fn a_report_has_a_section_on_steady_motions() {
         .split_once("Steady motions and stability</h2>")
         .unwrap();
     let section = &section[..section.find("</section>").unwrap()];
-    assert!(section.contains("Eigenvalues"), "{section}");
-    assert!(page.contains("Eigenvalues of the motion"));
+    assert!(
+        section.contains("Eigenvalues of the motion straight"),
+        "{section}"
+    );
+    assert!(section.contains("data-album=\"0\""), "{section}");
+    // The only mode: λ = −m a u/(J + m a²) at u = 1.
+    let rate = 1.5 * 0.25 / (0.4 + 1.5 * 0.25 * 0.25);
+    assert!(page.contains(&format!("straight: λ = −{rate:.4}")));
+    let halved = std::f64::consts::LN_2 / rate;
+    assert!(page.contains(&format!("It dies away, by half in {halved:.3}.")));
     let _ = std::fs::remove_dir_all(folder);
+}
+
+/// The report of the bicycle has its modes, weave, capsize and castering, and a map over speed and trail, for which the model states a range.
+#[test]
+fn a_report_plays_modes_and_shows_regions() {
+    let path = model("whipple-bicycle");
+    let folder = std::env::temp_dir().join(format!("chetaev-modes-{}", std::process::id()));
+    let out = text(&folder);
+    let options = ["--claims", "steady.stated", "--out", out];
+    let finished = run(&[&["study", text(&path)], &options[..]].concat());
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    let _ = std::fs::remove_dir_all(folder);
+    let (_, data) = page.split_once("id=\"data\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    let modes = data["albums"][0].as_array().unwrap();
+    // At 5 m/s (Meijaard and others 2007, table 2).
+    let names: Vec<&str> = modes.iter().map(|m| m["name"].as_str().unwrap()).collect();
+    let expected = ["−0.3229", "−0.7753 ± 4.4649 i", "−14.0784"];
+    assert_eq!(names, expected.map(|l| format!("upright: λ = {l}")));
+    for mode in modes {
+        let animation = &mode["animation"];
+        let frames = animation["times"].as_array().unwrap().len();
+        let (strides, elements) = (&animation["strides"], &animation["elements"]);
+        for (stride, element) in strides
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(elements.as_array().unwrap())
+        {
+            let values = element["values"].as_array().unwrap();
+            assert_eq!(values.len(), frames * stride.as_u64().unwrap() as usize);
+            assert!(values.iter().all(|x| x.is_f64() || x.is_i64()), "{element}");
+        }
+    }
+    let (_, section) = page.split_once("id=\"steady\"").unwrap();
+    let section = section.split_once("</section>").unwrap().0;
+    for part in [
+        "Regions of stability of the motion upright",
+        "<polyline",
+        "no eigenvalue right of the axis",
+    ] {
+        assert!(section.contains(part), "{part}");
+    }
+}
+
+/// A map is the same, bit for bit, for any number of threads.
+#[test]
+fn a_map_does_not_depend_on_threads() {
+    let text = std::fs::read_to_string(model("falling-rolling-disc")).unwrap();
+    let loaded = chetaev::model::load("model.toml", &text, &Default::default(), &[]);
+    let loaded = loaded.model.expect("a model");
+    let wanted = Wanted {
+        about: Some("rolling"),
+        over: Some("spin=1:12,r=0.1:0.5"),
+        ..Wanted::default()
+    };
+    let with = |threads: usize| {
+        let mut told = Vec::new();
+        let tell = &mut |part: f64| told.push(part);
+        let course = Course {
+            side: 24,
+            threads,
+            tell,
+        };
+        let asked = Asked::new(&loaded, &wanted).expect("linear equations");
+        assert!(asked.depends_on_both());
+        let map = asked.map(course);
+        assert!(told.is_sorted() && told.iter().all(|part| (0.0..1.0).contains(part)));
+        map
+    };
+    let (one, many) = (with(1), with(5));
+    let bits = |list: &[f64]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&one.growth), bits(&many.growth));
+    assert_eq!(one.is_stable, many.is_stable);
+    assert_eq!(one.curves, many.curves);
+    // A thin disc rolls upright where spin² > g/(3 r) (Routh 1905).
+    assert!(!one.curves.is_empty());
+    for &(spin, radius) in one.curves.iter().flat_map(|own| &own.points) {
+        assert!(
+            (spin * spin - 9.81 / (3.0 * radius)).abs() < 1e-5,
+            "{spin} {radius}"
+        );
+    }
 }

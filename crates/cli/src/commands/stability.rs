@@ -98,8 +98,9 @@ fn over_two(arguments: &Arguments, wanted: &Wanted<'_>) -> u8 {
         return INPUT;
     };
     let found = with_progress(|line| {
-        line.show("map of stability", None);
-        map(&read.model, wanted)
+        let what = "map of stability";
+        line.show(what, None);
+        map(&read.model, wanted, &mut |part| line.show(what, Some(part)))
     });
     let found = match found {
         Ok(found) => found,

@@ -31,7 +31,6 @@ pub mod letters;
 mod lifting;
 pub mod moving;
 pub(crate) mod occurring;
-mod parallel;
 mod plain;
 mod powers;
 pub mod reduced;

@@ -12,11 +12,11 @@
 use super::constants::constants;
 use super::family::{Family, Letter, Member};
 use super::motion::{draw_with_points, Motion, DRAWS, NO_POINTS};
-use super::parallel::in_parallel;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::parallel::in_parallel;
 use chetaev_symbolic::zero::points::{Draw, Points};
 use chetaev_symbolic::{Expr, Verdict};
 

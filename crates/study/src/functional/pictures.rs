@@ -103,6 +103,7 @@ pub(super) fn table(study: &Study) -> Option<Table> {
         ],
         headings,
         rows: rows.collect(),
+        ..Table::default()
     })
 }
 
@@ -206,6 +207,7 @@ pub(super) fn maps(study: &Study) -> Vec<Map> {
         vertical: vertical.clone(),
         columns: CELLS,
         values: values(polynomial),
+        ..Map::default()
     });
     own.collect()
 }

@@ -75,6 +75,7 @@ pub(super) fn table(problem: &Problem) -> Option<Table> {
                 is_marked: row.is_own,
             })
             .collect(),
+        ..Table::default()
     })
 }
 

@@ -12,10 +12,13 @@ use chetaev_symbolic::{rational, Expr};
 /// was computed.
 pub fn scene(study: &Study) -> Option<Animation> {
     let motion = study.motion.as_ref()?;
-    match &study.model.drawing {
-        Some(stated) => animation(study, motion, stated),
-        None => animation(study, motion, &drawn_by_itself(study)?),
-    }
+    animation(study, motion, &of_study(study)?)
+}
+
+/// The drawing of a model, or one that follows from its particles and coordinates.
+pub(super) fn of_study(study: &Study) -> Option<Drawing> {
+    let stated = study.model.drawing.clone();
+    stated.or_else(|| drawn_by_itself(study))
 }
 
 /// A drawing evaluated along the motion.
@@ -63,9 +66,14 @@ fn animation(study: &Study, motion: &Motion, drawing: &Drawing) -> Option<Animat
         );
     }
     elements.extend(drawn(&drawing.elements, &along(run)?, run.len()));
-    Some(Animation {
+    Some(pictured(drawing, run.times.clone(), elements))
+}
+
+/// A moving picture with the frame that the drawing states.
+pub(super) fn pictured(drawing: &Drawing, times: Vec<f64>, elements: Vec<Element>) -> Animation {
+    Animation {
         spatial: drawing.spatial,
-        times: run.times.clone(),
+        times,
         elements,
         bounds: drawing.bounds.as_ref().map(|b| {
             b.iter()
@@ -79,11 +87,11 @@ fn animation(study: &Study, motion: &Motion, drawing: &Drawing) -> Option<Animat
             .map(|(a, b)| [rational::to_f64(a), rational::to_f64(b)]),
         unit: None,
         description: (!drawing.description.is_empty()).then(|| drawing.description.clone()),
-    })
+    }
 }
 
 /// Elements with their values at so many rows; a run that ended earlier stays where it ended.
-fn drawn(stated: &[Stated], series: &[Vec<f64>], rows: usize) -> Vec<Element> {
+pub(super) fn drawn(stated: &[Stated], series: &[Vec<f64>], rows: usize) -> Vec<Element> {
     let mut start = 0;
     let mut elements = Vec::new();
     for element in stated {

@@ -1,25 +1,29 @@
-//! The section on steady motions: their eigenvalues, what is stated on their stability, and how the eigenvalues move with a parameter.
+//! The section on steady motions: their eigenvalues, what is stated on their stability, how the eigenvalues move with a parameter, regions of
+//! stability over two, and the modes.
 
+use super::modes;
+use crate::stability::map::{Asked, Course, StabilityMap};
 use crate::stability::{stability, Stability, Wanted};
 use crate::study::Study;
-use chetaev_mechanics::System;
-use chetaev_report::data::{Cell, Figure, Series, SeriesGroup, Table, TableRow};
+use chetaev_report::data::{
+    Cell, Figure, Map, Outline, Series, SeriesGroup, Table, TableRow, Tint,
+};
 use chetaev_stability::hurwitz::Region;
 use chetaev_stability::isolation::Root;
 use chetaev_stability::question::parameter_of_motion;
 use chetaev_symbolic::Rational;
 
-/// The table and its figures.
-pub(super) fn section(study: &Study) -> (Option<Table>, Vec<Figure>) {
+/// The table with its figures, maps and modes.
+pub(super) fn section(study: &Study) -> Option<Table> {
     let names = study.system.steady.iter().map(|own| own.name.clone());
     let found: Vec<(String, Stability)> = names
         .filter_map(|name| Some((name.clone(), about(study, &name)?)))
         .collect();
     if found.is_empty() {
-        return (None, Vec::new());
+        return None;
     }
     let rows = found.iter().map(|(name, own)| row(study, name, own));
-    let table = Table {
+    Some(Table {
         id: "steady".into(),
         title: "Steady motions and stability".into(),
         explanation: vec![
@@ -29,16 +33,23 @@ pub(super) fn section(study: &Study) -> (Option<Table>, Vec<Figure>) {
             .map(String::from)
             .to_vec(),
         rows: rows.collect(),
-    };
-    let figures = found.iter().filter_map(|(name, own)| figure(name, own));
-    (Some(table), figures.collect())
+        figures: found
+            .iter()
+            .filter_map(|(name, own)| figure(name, own))
+            .collect(),
+        maps: found
+            .iter()
+            .filter_map(|(name, own)| regions(study, name, own))
+            .collect(),
+        album: modes::album(study, &found),
+    })
 }
 
 /// The linear equations about a motion, over a range around the stated value where a parameter names the members of its family.
 fn about(study: &Study, name: &str) -> Option<Stability> {
     let motion = study.system.steady.iter().find(|own| own.name == name)?;
     let range = parameter_of_motion(&study.system, motion)
-        .and_then(|symbol| range(&study.system, &study.system.graph.symbol_text(symbol)));
+        .and_then(|symbol| range(study, &study.system.graph.symbol_text(symbol)));
     let wanted = |over| Wanted {
         about: Some(name),
         over,
@@ -49,8 +60,12 @@ fn about(study: &Study, name: &str) -> Option<Stability> {
     found.or_else(|| stability(&study.model, &wanted(None)).ok())
 }
 
-/// From minus twice the stated value of a parameter to twice it, in short decimals.
-fn range(system: &System, name: &str) -> Option<String> {
+/// The range of a parameter that the model states; else from minus twice its value to twice it, in short decimals.
+fn range(study: &Study, name: &str) -> Option<String> {
+    if let Some(text) = stated_range(study, name) {
+        return Some(text);
+    }
+    let system = &study.system;
     let parameter = system.parameters.iter().find(|p| p.name == name)?;
     let value = system.graph.evaluate_f64(&[parameter.value?], &|_| None);
     let size = match value.ok()?[0].abs() {
@@ -59,6 +74,99 @@ fn range(system: &System, name: &str) -> Option<String> {
     };
     let end: f64 = format!("{:.3e}", 2.0 * size).parse().ok()?;
     Some(format!("{name}=-{end}:{end}"))
+}
+
+/// The range that the model states of a parameter, where its ends are numbers.
+fn stated_range(study: &Study, name: &str) -> Option<String> {
+    let parameter = study.model.parameters.iter().find(|p| p.name == name)?;
+    let g = &study.model.graph;
+    let (low, high) = parameter.range?;
+    (g.as_number(low)? < g.as_number(high)?)
+        .then(|| format!("{name}={}:{}", g.text(low), g.text(high)))
+}
+
+/// Parameters that are tried for a map.
+const TRIED: usize = 4;
+
+/// Intervals on each side of a map.
+const SIDE: usize = 80;
+
+/// Where the motion is stable over two parameters: the one that names the members of its family, and the first further one for which the model
+/// states a range and on which the linear equations depend; else the first two for which it states a range.
+fn regions(study: &Study, name: &str, own: &Stability) -> Option<Map> {
+    let first = own.range.as_ref().map(|range| range.name.clone());
+    let others = study.model.parameters.iter().map(|p| p.name.clone());
+    let others = others.filter(|other| first.as_ref() != Some(other));
+    let others = others.filter_map(|other| stated_range(study, &other));
+    let ranges: Vec<String> = first
+        .iter()
+        .filter_map(|first| range(study, first))
+        .chain(others)
+        .take(TRIED)
+        .collect();
+    let pairs = (0..ranges.len()).flat_map(|i| (i + 1..ranges.len()).map(move |j| (i, j)));
+    let asked = pairs.filter_map(|(i, j)| {
+        let over = format!("{},{}", ranges[i], ranges[j]);
+        let wanted = Wanted {
+            about: Some(name),
+            over: Some(&over),
+            ..Wanted::default()
+        };
+        Asked::new(&study.model, &wanted).ok()
+    });
+    let asked = asked.into_iter().find(Asked::depends_on_both)?;
+    Some(map_of(&asked.map(Course {
+        side: SIDE,
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        tell: &mut |_| {},
+    })))
+}
+
+/// The map as a picture: how fast neighbours depart, and the boundaries of stability.
+fn map_of(own: &StabilityMap) -> Map {
+    // The mean of the corners of each cell; none where all are stable.
+    let cell = |column: usize, row: usize| {
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        let corners = corners.map(|(x, y)| (row + y) * (own.side + 1) + column + x);
+        if corners.iter().all(|&at| own.is_stable[at]) {
+            return f64::NAN;
+        }
+        corners
+            .iter()
+            .map(|&at| own.growth[at].max(0.0))
+            .sum::<f64>()
+            / 4.0
+    };
+    let cells = (0..own.side).flat_map(|row| (0..own.side).map(move |column| (column, row)));
+    let ends = |range: &crate::stability::Range| {
+        let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
+        (range.name.clone(), low, high)
+    };
+    let outlines = own.curves.iter().map(|curve| Outline {
+        name: match curve.kind {
+            "pair" => "a pair of eigenvalues passes the axis".into(),
+            _ => "an eigenvalue passes through zero".into(),
+        },
+        tint: match curve.kind {
+            "pair" => Tint::Red,
+            _ => Tint::Blue,
+        },
+        points: curve.points.clone(),
+    });
+    Map {
+        title: format!("Regions of stability of the motion {}", own.motion),
+        explanation: vec![
+            "The largest real part of an eigenvalue where one lies right of the axis, by eigenvalues on a grid, and the boundaries of these regions."
+                .into(),
+        ],
+        horizontal: ends(&own.ranges[0]),
+        vertical: ends(&own.ranges[1]),
+        columns: own.side,
+        values: cells.map(|(column, row)| cell(column, row)).collect(),
+        absent: Some("no eigenvalue right of the axis".into()),
+        outlines: outlines.collect(),
+        is_unscaled: true,
+    }
 }
 
 fn row(study: &Study, name: &str, own: &Stability) -> TableRow {

@@ -6,7 +6,7 @@
 //! 1914), are given exactly where they are short.
 
 use super::{at, check_parameter, motions, range, with_values, Range, StabilityError, Wanted};
-use chetaev_mechanics::{Prepared, System};
+use chetaev_mechanics::{Prepared, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::eigenvalues::{eigenvalues, Complex};
 use chetaev_stability::expansion::Expansion;
@@ -15,12 +15,13 @@ use chetaev_stability::question::{values_but_these, Question};
 use chetaev_stability::reduction::Speeds;
 use chetaev_stability::steady_set::steady_set;
 use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::parallel::on_threads;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Places on each side of the grid.
+/// Intervals on each side of the grid.
 pub const SIDE: usize = 200;
 /// Bisections of an edge of the grid: to the rounding of the parameters.
 const HALVINGS: usize = 48;
@@ -47,7 +48,9 @@ pub struct StabilityMap {
     pub motion: String,
     /// The parameters with their ranges.
     pub ranges: [Range; 2],
-    /// The largest real part of an eigenvalue that is no zero of the family, at [`SIDE`] + 1 values of the first parameter for each of the second.
+    /// Intervals on each side of the grid.
+    pub side: usize,
+    /// The largest real part of an eigenvalue that is no zero of the family, at `side` + 1 values of the first parameter for each of the second.
     pub growth: Vec<f64>,
     /// Whether it counts as stable there: for pairs on the axis, that linear motions grow no faster than a power of the time.
     pub is_stable: Vec<bool>,
@@ -57,56 +60,118 @@ pub struct StabilityMap {
     pub equations: Vec<(&'static str, String)>,
 }
 
-/// The map of a model over `a=FROM:TO,b=FROM:TO`.
+/// How a map is computed; the map does not depend on the threads.
+pub struct Course<'t> {
+    /// Intervals on each side of the grid.
+    pub side: usize,
+    /// Threads.
+    pub threads: usize,
+    /// Hears which part is done.
+    pub tell: &'t mut dyn FnMut(f64),
+}
+
+/// The map of a model over `a=FROM:TO,b=FROM:TO`, [`SIDE`] intervals wide and high, on all processors.
 ///
 /// # Errors
 /// [`StabilityError`].
-pub fn map(model: &Model, wanted: &Wanted<'_>) -> Result<StabilityMap, StabilityError> {
-    let text = wanted.over.unwrap_or_default();
-    let wrong = || StabilityError::Range { text: text.into() };
-    let all: Vec<Range> = text
-        .split(',')
-        .map(|own| range(model, own))
-        .collect::<Result<_, _>>()?;
-    let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
-    let mut system = System::from_model(model)?;
-    let prepared = Prepared::new(&system)?;
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let over = ranges.clone().map(|own| own.symbol);
-    let values = values_but_these(&system, &over);
-    let found = || steady_set(&system, terms, selection, &values);
-    let mut motions = motions(model, &system, wanted.about, &found)?;
-    for range in &ranges {
-        check_parameter(&system, &motions, range)?;
-    }
-    let given = wanted.at.map(|text| at(model, text)).transpose()?;
-    if let Some(name) = with_values(&mut system, &mut motions, &given.unwrap_or_default()) {
-        let text = wanted.at.unwrap_or_default().into();
-        let why = format!("`{name}` is neither a control nor a parameter of the motion");
-        return Err(StabilityError::At { text, why });
-    }
-    let motion = motions
-        .first()
-        .ok_or(StabilityError::SeveralMotions { names: Vec::new() })?;
-    let own = (&values[..], Speeds::Suitable);
-    let about = Expansion::in_speeds(&system, terms, selection, motion, own)?;
-    let question = Question::about(&about, None);
-    let grid = Grid {
-        g: &system.graph,
-        question: &question,
-        over,
-        ranges: &ranges,
+pub fn map(
+    model: &Model,
+    wanted: &Wanted<'_>,
+    tell: &mut dyn FnMut(f64),
+) -> Result<StabilityMap, StabilityError> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let side = SIDE;
+    let course = Course {
+        side,
+        threads,
+        tell,
     };
-    let (growth, is_stable) = grid.sampled();
-    Ok(StabilityMap {
-        curves: grid.curves(&is_stable),
-        equations: grid.equations(),
-        growth,
-        is_stable,
-        name: system.name.clone(),
-        motion: motion.name.clone(),
-        ranges,
-    })
+    Ok(Asked::new(model, wanted)?.map(course))
+}
+
+/// A motion with its linear equations, exact in two parameters.
+pub struct Asked {
+    system: System,
+    motion: SteadyMotion,
+    question: Question,
+    ranges: [Range; 2],
+}
+
+impl Asked {
+    /// What is asked of a model over `a=FROM:TO,b=FROM:TO`.
+    ///
+    /// # Errors
+    /// [`StabilityError`].
+    pub fn new(model: &Model, wanted: &Wanted<'_>) -> Result<Asked, StabilityError> {
+        let text = wanted.over.unwrap_or_default();
+        let wrong = || StabilityError::Range { text: text.into() };
+        let all: Vec<Range> = text
+            .split(',')
+            .map(|own| range(model, own))
+            .collect::<Result<_, _>>()?;
+        let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
+        let mut system = System::from_model(model)?;
+        let prepared = Prepared::new(&system)?;
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let values = values_but_these(&system, &ranges.clone().map(|own| own.symbol));
+        let found = || steady_set(&system, terms, selection, &values);
+        let mut motions = motions(model, &system, wanted.about, &found)?;
+        for range in &ranges {
+            check_parameter(&system, &motions, range)?;
+        }
+        let given = wanted.at.map(|text| at(model, text)).transpose()?;
+        if let Some(name) = with_values(&mut system, &mut motions, &given.unwrap_or_default()) {
+            let text = wanted.at.unwrap_or_default().into();
+            let why = format!("`{name}` is neither a control nor a parameter of the motion");
+            return Err(StabilityError::At { text, why });
+        }
+        let motion = motions
+            .into_iter()
+            .next()
+            .ok_or(StabilityError::SeveralMotions { names: Vec::new() })?;
+        let own = (&values[..], Speeds::Suitable);
+        let about = Expansion::in_speeds(&system, terms, selection, &motion, own)?;
+        let question = Question::about(&about, None);
+        Ok(Asked {
+            motion,
+            question,
+            ranges,
+            system,
+        })
+    }
+
+    /// Whether both parameters occur in the linear equations.
+    pub fn depends_on_both(&self) -> bool {
+        let linear = &self.question.linear;
+        let entries = [linear.left.concat(), linear.right.concat()].concat();
+        let g = &self.system.graph;
+        let occurs = |own: &Range| g.any_contains_any(&entries, &[own.symbol]);
+        self.ranges.iter().all(occurs)
+    }
+
+    /// The map.
+    pub fn map(self, course: Course<'_>) -> StabilityMap {
+        let (side, threads) = (course.side.max(1), course.threads);
+        let grid = Grid {
+            g: &self.system.graph,
+            question: &self.question,
+            over: self.ranges.clone().map(|own| own.symbol),
+            ranges: &self.ranges,
+            side,
+            threads,
+        };
+        let (growth, is_stable) = grid.sampled(course.tell);
+        StabilityMap {
+            curves: grid.curves(&is_stable),
+            equations: grid.equations(),
+            growth,
+            is_stable,
+            side,
+            name: self.system.name.clone(),
+            motion: self.motion.name.clone(),
+            ranges: self.ranges,
+        }
+    }
 }
 
 /// The question over a grid of two parameters.
@@ -115,6 +180,8 @@ struct Grid<'a> {
     question: &'a Question,
     over: [Symbol; 2],
     ranges: &'a [Range; 2],
+    side: usize,
+    threads: usize,
 }
 
 /// A place between two neighbours of the grid: column, row, and whether the next one lies above.
@@ -124,7 +191,7 @@ impl Grid<'_> {
     fn place(&self, column: f64, row: f64) -> (f64, f64) {
         let at = |range: &Range, part: f64| {
             let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
-            low + (high - low) * part / SIDE as f64
+            low + (high - low) * part / self.side as f64
         };
         (at(&self.ranges[0], column), at(&self.ranges[1], row))
     }
@@ -170,17 +237,19 @@ impl Grid<'_> {
         own.is_some_and(|(l, size)| l.re <= allowed * size)
     }
 
-    fn sampled(&self) -> (Vec<f64>, Vec<bool>) {
-        let mut growth = Vec::new();
-        let mut is_stable = Vec::new();
-        for row in 0..=SIDE {
-            for column in 0..=SIDE {
-                let own = self.rightmost(self.place(column as f64, row as f64));
-                growth.push(own.map_or(f64::NAN, |own| own.0.re));
-                is_stable.push(self.is_stable(own));
-            }
-        }
-        (growth, is_stable)
+    fn sampled(&self, tell: &mut dyn FnMut(f64)) -> (Vec<f64>, Vec<bool>) {
+        let one = |row: usize| -> Vec<(f64, bool)> {
+            let places = (0..=self.side).map(|column| self.place(column as f64, row as f64));
+            let found = places.map(|place| self.rightmost(place));
+            let growth = |own: &Option<(Complex<f64>, f64)>| own.map_or(f64::NAN, |own| own.0.re);
+            found
+                .map(|own| (growth(&own), self.is_stable(own)))
+                .collect()
+        };
+        let rows = self.side + 1;
+        let mut tell = |row: usize| tell(row as f64 / rows as f64);
+        let found = on_threads(self.threads, rows, one, &mut tell);
+        found.into_iter().flatten().unzip()
     }
 
     /// The place of the boundary on an edge whose ends differ, with what passes there.
@@ -214,10 +283,11 @@ impl Grid<'_> {
 
     /// The boundaries, joined from cell to cell.
     fn curves(&self, is_stable: &[bool]) -> Vec<Curve> {
-        let stable = |column: usize, row: usize| is_stable[row * (SIDE + 1) + column];
+        let side = self.side;
+        let stable = |column: usize, row: usize| is_stable[row * (side + 1) + column];
         let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
-        for row in 0..SIDE {
-            for column in 0..SIDE {
+        for row in 0..side {
+            for column in 0..side {
                 let edges = [
                     (column, row, false),
                     (column + 1, row, true),
@@ -239,11 +309,10 @@ impl Grid<'_> {
                 }
             }
         }
-        let mut places = BTreeMap::new();
-        for &(column, row, up) in joined.keys() {
-            let own = self.located((column, row, up), stable(column, row));
-            places.insert((column, row, up), own);
-        }
+        let crossed: Vec<Edge> = joined.keys().copied().collect();
+        let located = |at: usize| self.located(crossed[at], stable(crossed[at].0, crossed[at].1));
+        let located = on_threads(self.threads, crossed.len(), located, &mut |_| {});
+        let places: BTreeMap<Edge, _> = crossed.iter().copied().zip(located).collect();
         chains(joined)
             .into_iter()
             .flat_map(|chain| by_kind(chain.iter().map(|edge| places[edge])))
@@ -343,7 +412,7 @@ const HEIGHT: usize = 20;
 impl StabilityMap {
     /// Whether the motion is stable at a place of the grid.
     pub(crate) fn stable_at(&self, column: usize, row: usize) -> bool {
-        self.is_stable[row * (SIDE + 1) + column]
+        self.is_stable[row * (self.side + 1) + column]
     }
 
     /// The map in characters, with the boundaries.
@@ -351,14 +420,14 @@ impl StabilityMap {
         let [x, y] = &self.ranges;
         let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid\n\n", self.name, self.motion);
         for line in (0..=HEIGHT).rev() {
-            let row = line * SIDE / HEIGHT;
+            let row = line * self.side / HEIGHT;
             let head = match line {
                 HEIGHT => format!("{} = {}", y.name, y.high.to_f64().value()),
                 0 => format!("{} = {}", y.name, y.low.to_f64().value()),
                 _ => String::new(),
             };
             let mark = |c: usize| {
-                if self.stable_at(c * SIDE / WIDTH, row) {
+                if self.stable_at(c * self.side / WIDTH, row) {
                     '.'
                 } else {
                     '#'
@@ -402,7 +471,7 @@ impl StabilityMap {
     /// The map as JSON: growth over the grid, boundaries, their equations.
     pub fn json(&self) -> Value {
         let number = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
-        let rows = self.growth.chunks_exact(SIDE + 1);
+        let rows = self.growth.chunks_exact(self.side + 1);
         let rows = rows.map(|row| row.iter().map(|x| number(*x)).collect::<Vec<_>>());
         let range = |own: &Range| json!({"parameter": own.name, "from": own.low.to_f64().value(), "to": own.high.to_f64().value()});
         json!({

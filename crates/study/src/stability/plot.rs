@@ -1,6 +1,6 @@
 //! Pictures of stability as SVG: eigenvalues over one parameter, regions over two.
 
-use super::map::{StabilityMap, SIDE};
+use super::map::StabilityMap;
 use super::{Range, Stability};
 use chetaev_report::escaped;
 use chetaev_stability::question::Place;
@@ -140,21 +140,22 @@ fn ends(range: &Range) -> (f64, f64) {
 impl StabilityMap {
     /// The regions of stability with their boundaries.
     pub fn picture(&self) -> String {
+        let side = self.side;
         let axes = Axes {
             x: ends(&self.ranges[0]),
             y: ends(&self.ranges[1]),
         };
         let place = |column: f64, row: f64| {
-            let part = |(low, high): (f64, f64), at: f64| low + (high - low) * at / SIDE as f64;
+            let part = |(low, high): (f64, f64), at: f64| low + (high - low) * at / side as f64;
             axes.at(part(axes.x, column), part(axes.y, row))
         };
         let mut inside = String::new();
-        for row in 0..SIDE {
+        for row in 0..side {
             let mut column = 0;
-            while column < SIDE {
+            while column < side {
                 let from = column;
                 let is_stable = self.stable_at(column, row);
-                while column < SIDE && self.stable_at(column, row) == is_stable {
+                while column < side && self.stable_at(column, row) == is_stable {
                     column += 1;
                 }
                 if is_stable {

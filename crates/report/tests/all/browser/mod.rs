@@ -16,7 +16,7 @@ mod names;
 #[path = "../../../examples/demo/sleigh.rs"]
 mod sleigh;
 
-use chetaev_report::data::Formula;
+use chetaev_report::data::{Album, Animation, Formula, Map, Outline, Shown, Table, Tint};
 use chetaev_report::{render, Report};
 use chromium::{Page, View};
 
@@ -417,5 +417,91 @@ fn a_drift_is_judged_by_its_claim_and_curves_on_each_other_can_be_told_apart() {
     ));
     let dashes = "new Set([...document.querySelector('[data-plot=\"2\"]').querySelectorAll('svg[role] path.curve')].map((p) => getComputedStyle(p).strokeDasharray)).size";
     assert_eq!(page.number(dashes), 2.0);
+    assert_quiet(&mut page);
+}
+
+/// Moving pictures under a table: each has a time of its own, the reader chooses one and plays it, and the animation of the motion stands.
+#[test]
+fn modes_are_chosen_and_played() {
+    let mut report = sleigh::report();
+    let animation = report.animation.clone().unwrap();
+    let mut other = animation.clone();
+    other.elements.truncate(1);
+    let shown = |name: &str, animation: Animation| Shown {
+        name: format!("{name} <b>"),
+        explanation: format!("This is {name}."),
+        animation,
+    };
+    report.tables.push(Table {
+        id: "steady".into(),
+        title: "Steady motions".into(),
+        figures: vec![report.figures[0].clone()],
+        maps: vec![Map {
+            title: "Regions".into(),
+            horizontal: ("v".into(), 0.0, 2.0),
+            vertical: ("c".into(), 0.0, 1.0),
+            columns: 2,
+            values: vec![f64::NAN, 1.0, f64::NAN, 3.0],
+            absent: Some("stable".into()),
+            outlines: vec![Outline {
+                name: "a pair passes".into(),
+                tint: Tint::Red,
+                points: vec![(1.0, 0.0), (1.0, 1.0)],
+            }],
+            is_unscaled: true,
+            ..Map::default()
+        }],
+        album: Some(Album {
+            title: "Modes".into(),
+            choice: "Mode".into(),
+            pictures: vec![shown("weave", animation), shown("capsize", other)],
+            ..Album::default()
+        }),
+        ..Table::default()
+    });
+    let mut page = open(&report);
+    page.evaluate("document.querySelector('#steady').scrollIntoView()");
+    page.settle();
+    let options =
+        "[...document.querySelectorAll('.album .choice option')].map((o) => o.textContent).join()";
+    assert_eq!(page.text(options), "weave <b>,capsize <b>");
+    let said = "document.querySelector('.album .hint').textContent";
+    assert_eq!(page.text(said), "This is weave.");
+    let picture = "document.querySelector('.album canvas').toDataURL()";
+    let (before, main) = (page.text(picture), page.number("clock.time"));
+    page.evaluate("document.querySelector('.album .play').click()");
+    page.wait_until("Number(document.querySelector('.album input[type=range]').value) > 0.2");
+    assert_ne!(page.text(picture), before);
+    assert_eq!(
+        page.number("clock.time"),
+        main,
+        "the animation of the motion moves"
+    );
+    page.evaluate(
+        "{ const choice = document.querySelector('.album .choice select');
+           choice.value = '1'; choice.dispatchEvent(new Event('change')); }",
+    );
+    assert_eq!(page.text(said), "This is capsize.");
+    assert_eq!(
+        page.number("document.querySelectorAll('.album canvas').length"),
+        1.0
+    );
+    // It goes on with the other picture, from its beginning.
+    page.wait_until(
+        "document.querySelector('.album .play').getAttribute('aria-label') === words.pause",
+    );
+    // The figure stands in the section, and the map has its curve in the middle and its words.
+    assert!(page.holds("document.querySelector('#steady .plot path.curve') !== null"));
+    let curve = page.text("document.querySelector('.map polyline').getAttribute('points')");
+    let across: Vec<&str> = curve.split([' ', ',']).collect();
+    assert_eq!((across[0], across[2]), ("292.0", "292.0"), "{curve}");
+    assert_eq!(
+        page.text("document.querySelector('.map .outlines').textContent"),
+        "stablea pair passes"
+    );
+    assert_eq!(
+        page.number("document.querySelectorAll('.map g rect').length"),
+        4.0
+    );
     assert_quiet(&mut page);
 }

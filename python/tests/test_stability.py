@@ -1,0 +1,62 @@
+"""Eigenvalues of linear equations against NumPy's, on random systems."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from chetaev import System
+
+# All of it in a full run, as the long tests in Rust.
+COUNT = 200 if os.environ.get("CHETAEV_TESTS") == "full" else 20
+
+
+def model(seed: int) -> str:
+    """Three coordinates at rest at the origin: masses that vary, gyroscopic, dissipative and circulatory forces, now and then a constraint."""
+    own = random.Random(seed)
+
+    def number(low: int, high: int) -> str:
+        return f"({own.randint(20 * low, 20 * high)}/20)"
+
+    constraint = ""
+    if seed % 3:
+        constraint = f'[constraints]\nlink = "z\' = ({number(-2, 2)} y + {number(-1, 1)} z) x\' + {number(-2, 2)} y\'"\n'
+    stiffness = (1, 4) if seed % 2 else (-4, -1)
+    return (
+        f'name = "random-{seed}"\ncoordinates = ["x", "y", "z"]\n[lagrangian]\n'
+        f"T = \"1/2 ({number(1, 3)} x'^2 + {number(1, 3)} y'^2 + {number(1, 3)} z'^2) + {number(-1, 1)} y x' y' + {number(-1, 1)} sin(x) y' z'\"\n"
+        f'V = "1/2 ({number(*stiffness)} x^2 + {number(1, 4)} y^2 + {number(1, 4)} z^2) + {number(-1, 1)} x y^2 + {number(0, 1)} (1 - cos(x + z))"\n'
+        f"[forces]\nx = \"{number(-2, 2)} y' - {number(0, 2)} x' + {number(-1, 1)} y\"\n"
+        f"y = \"{number(-2, 2)} x' - {number(0, 2)} y'\"\n{constraint}"
+        "[steady.rest]\nx = 0\ny = 0\nz = 0\n\"x'\" = 0\n\"y'\" = 0\n\"z'\" = 0\n"
+    )
+
+
+@pytest.mark.parametrize("seed", range(COUNT))
+def test_eigenvalues_are_those_of_numpy(seed: int) -> None:
+    linear = System.from_text(model(seed)).linearize()
+    E, F = linear.to_sympy()
+    assert not (E.free_symbols | F.free_symbols)
+    expected = np.linalg.eigvals(np.array(E.LUsolve(F), dtype=float))
+    values = linear.eigenvalues
+    assert values is not None
+    found = [complex(own) for own in np.asarray(values).ravel()]
+    assert len(found) == len(expected)
+    # Multiple eigenvalues move as a root of the rounding; each is matched with the nearest that is left.
+    size = max(1.0, float(max(abs(expected))))
+    for own in expected:
+        nearest = min(found, key=lambda other: abs(other - own))
+        assert abs(nearest - own) < 1e-6 * size, (seed, own, found)
+        found.remove(nearest)
+    # Each is a zero of the exact characteristic polynomial, to rounding of its terms; zero itself has the rounding of its neighbours.
+    symbol = sp.Symbol("lambda")
+    polynomial = sp.Poly((symbol * E - F).det(), symbol)
+    coefficients = [float(own) for own in polynomial.all_coeffs()]
+    for own in values:
+        radius = max(abs(own), 1e-3 * size)
+        bound = sum(abs(c) * radius**k for k, c in enumerate(reversed(coefficients)))
+        assert abs(np.polyval(coefficients, own)) <= 1e-10 * bound, (seed, own)
