@@ -6,8 +6,9 @@ use crate::system::{
     Relation, StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin,
     Unknown, VariationOperator,
 };
-use chetaev_model::model::{MassLaw, Model, SteadyStated, Thrust as StatedThrust};
+use chetaev_model::model::{InitialValue, MassLaw, Model, SteadyStated, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl System {
@@ -183,6 +184,12 @@ impl System {
     }
 }
 
+/// The places of values that are guesses.
+fn guesses(values: &BTreeMap<(usize, u32), InitialValue>) -> Vec<(usize, u32)> {
+    let guessed = values.iter().filter(|(_, own)| own.is_guess);
+    guessed.map(|(place, _)| *place).collect()
+}
+
 fn steady(model: &Model, stated: &SteadyStated) -> SteadyMotion {
     let of = |order: u32| {
         let value = |i: usize| stated.values.get(&(i, order)).map(|given| given.value);
@@ -192,6 +199,7 @@ fn steady(model: &Model, stated: &SteadyStated) -> SteadyMotion {
         name: stated.name.clone(),
         positions: of(0),
         velocities: of(1),
+        guesses: guesses(&stated.values),
     }
 }
 

@@ -217,6 +217,8 @@ pub struct SteadyMotion {
     pub positions: Vec<Option<Expr>>,
     /// q', where given; length n.
     pub velocities: Vec<Option<Expr>>,
+    /// Which of them are guesses, near which the motion is searched for: the coordinate, and the order of its derivative, 0 or 1.
+    pub guesses: Vec<(usize, u32)>,
 }
 
 /// How a sign or range is assumed.

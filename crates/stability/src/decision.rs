@@ -1,6 +1,7 @@
 //! One statement on a motion, decided at the values of the parameters that the model states, or for all values of the one parameter that occurs
 //! in the motion only.
 
+use crate::beside::RunsBeside;
 use crate::bundle::{bundles, Bundle};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Crossing, Ranges};
@@ -119,6 +120,11 @@ pub(crate) trait Statement {
         Vec::new()
     }
 
+    /// Whether runs beside the motion are a witness where it is undecided.
+    fn is_witnessed(&self) -> bool {
+        false
+    }
+
     /// Whether it holds where a determinant vanishes, given whether it holds on one side of that value.
     fn at_border(&self, _holds_beside: bool) -> Option<bool> {
         None
@@ -133,12 +139,27 @@ pub(crate) trait Statement {
     fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample;
 }
 
-/// The verdict on a statement.
+/// The verdict on a statement; what is undecided has a witness, where the context brings one.
 pub(crate) fn verdict(
     cx: &Context<'_>,
     subject: Option<&str>,
     statement: &dyn Statement,
 ) -> Verdict {
+    let found = decided(cx, subject, statement);
+    let is_open = matches!(found, Verdict::Undecided { .. });
+    let witness = cx.extension::<RunsBeside>();
+    let Some(witness) = witness.filter(|_| is_open && statement.is_witnessed()) else {
+        return found;
+    };
+    let mut stated = cx.system.steady.iter();
+    let motion = stated.find(|own| Some(own.name.as_str()) == subject);
+    match motion.and_then(|own| (witness.0)(cx.system, cx.terms, cx.selection, own)) {
+        Some(said) => Verdict::undecided(format!("{}; {said}", found.detail())),
+        None => found,
+    }
+}
+
+fn decided(cx: &Context<'_>, subject: Option<&str>, statement: &dyn Statement) -> Verdict {
     let about = match about(cx, subject) {
         Some(Ok(about)) => about,
         Some(Err(problem)) => return Verdict::undecided(problem.to_string()),

@@ -1,5 +1,6 @@
 //! A motion in its system: the smallest closed system of variables, and the values of expressions and of their derivatives at the motion.
 
+use crate::guess::near;
 use crate::problem::LinearizationError;
 use crate::reduction::{ClosedSystem, Speeds};
 use crate::steady::{at_point, completed, State};
@@ -50,7 +51,8 @@ impl<'a> Expansion<'a> {
         motion: &'a SteadyMotion,
         (values, speeds): (&[(Expr, Expr)], Speeds),
     ) -> Result<Expansion<'a>, LinearizationError> {
-        let state = completed(motion, system, terms, &selection.rows, values)?;
+        let found = near(system, terms, selection, (motion, values))?;
+        let state = completed(&found, system, terms, &selection.rows, values)?;
         let point = point(system, &state, values);
         let about = Expansion {
             system,

@@ -12,10 +12,13 @@
 //!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] in double precision, [`enclosure`] one that is proved.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
 //!    [`real_roots`]; [`question`] puts it together.
-//! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions.
-//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots.
+//! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
+//!    [`beside`]: runs beside it as a witness where nothing is decided.
+//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots;
+//!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
+pub mod beside;
 mod branch;
 pub mod bundle;
 pub mod characteristic;
@@ -26,6 +29,7 @@ pub mod enclosure;
 mod evidence;
 pub mod expansion;
 mod family;
+pub mod guess;
 pub mod hurwitz;
 pub mod integrals;
 pub mod isolation;

@@ -28,6 +28,14 @@ pub enum LinearizationError {
         /// The coordinate.
         coordinate: String,
     },
+    /// Guesses, and no steady motion near them that is known exactly.
+    #[error("no steady motion was found exactly near the guesses of the motion `{motion}`: {why}")]
+    NotFound {
+        /// The motion.
+        motion: String,
+        /// Why.
+        why: String,
+    },
     /// The velocities that are not given cannot be solved for.
     #[error("the constraints do not allow the velocities of the motion `{motion}`")]
     VelocitiesNotDetermined {

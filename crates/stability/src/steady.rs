@@ -26,6 +26,7 @@ pub fn rest(system: &System, name: &str, positions: Vec<Option<Expr>>) -> Steady
         name: name.into(),
         positions,
         velocities: vec![Some(zero); system.n()],
+        guesses: Vec::new(),
     }
 }
 

@@ -260,6 +260,7 @@ impl<'a> Equations<'a> {
             name: name.into(),
             positions: (0..system.n()).map(position).collect(),
             velocities: velocities.into_iter().map(Some).collect(),
+            guesses: Vec::new(),
         }
     }
 }

@@ -20,6 +20,7 @@ use chetaev_mechanics::{Prepared, Selection, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
 use chetaev_stability::expansion::Expansion;
+use chetaev_stability::guess::near;
 use chetaev_stability::hurwitz::Ranges;
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::parts::Parts;
@@ -132,6 +133,14 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
     }
     let mut problem = None;
     for motion in &motions {
+        let motion = match near(&system, terms, &selection, (motion, &wanted_values)) {
+            Ok(found) => found,
+            Err(own) => {
+                problem = Some(own);
+                continue;
+            }
+        };
+        let motion = &*motion;
         let free = match &range {
             Some(range) => Some(range.symbol),
             None if wanted.symbolic => None,
@@ -339,10 +348,15 @@ pub(crate) fn motions(
         };
         (0..system.n()).map(value).collect()
     };
+    let guessed = model.initial.values.iter().filter(|(_, own)| own.is_guess);
     let start = || SteadyMotion {
         name: "start".into(),
         positions: of_start(0),
         velocities: of_start(1),
+        guesses: guessed
+            .map(|(place, _)| *place)
+            .filter(|(_, order)| *order <= 1)
+            .collect(),
     };
     if let Some(stated) = system
         .steady

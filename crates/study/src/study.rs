@@ -41,6 +41,8 @@ use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
 };
+use chetaev_orbits::perturbed::perturbed_runs;
+use chetaev_stability::beside::RunsBeside;
 use chetaev_symbolic::meter::{within, Stopped, Work, UNITS_PER_SECOND};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
@@ -698,6 +700,7 @@ fn strata<'a>(
 ) -> Strata<'a> {
     let with = move |cx: Context<'a>| {
         let cx = cx.allowing(options.work());
+        let cx = cx.with(Arc::new(RunsBeside(perturbed_runs)));
         match motion {
             Some(motion) => cx.with(Arc::clone(&motion.evidence)),
             None => cx,

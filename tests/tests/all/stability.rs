@@ -10,6 +10,7 @@ use chetaev::study::stability::Wanted;
 use chetaev_tests::places::root;
 use chetaev_tests::program::{run, text};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 fn model(name: &str) -> PathBuf {
@@ -59,6 +60,17 @@ fn the_bicycle_from_the_command_line() {
         "{}",
         printed.out
     );
+    // The weave speed is a Hopf point beside the zero of the family of speeds, and that is said.
+    let reason = "whose zero eigenvalue stands beside the pair";
+    assert!(printed.out.contains(reason), "{}", printed.out);
+    let weave = (found["critical"].as_array().expect("a list").iter())
+        .find(|c| c["kind"] == "pair")
+        .expect("the weave speed");
+    assert!(weave["first_lyapunov"].is_null());
+    assert!(weave["undecided"]
+        .as_str()
+        .expect("a reason")
+        .contains(reason));
     let linear = run(&["linearize", text(&path)]);
     assert!(
         linear.out.contains("z = (phi, delta, phi', delta', thR')"),
@@ -441,7 +453,7 @@ fn a_report_plays_modes_and_shows_regions() {
 #[test]
 fn a_map_does_not_depend_on_threads() {
     let text = std::fs::read_to_string(model("falling-rolling-disc")).unwrap();
-    let loaded = chetaev::model::load("model.toml", &text, &Default::default(), &[]);
+    let loaded = chetaev::model::load("model.toml", &text, &BTreeMap::new(), &[]);
     let loaded = loaded.model.expect("a model");
     let wanted = Wanted {
         about: Some("rolling"),
@@ -474,5 +486,32 @@ fn a_map_does_not_depend_on_threads() {
             (spin * spin - 9.81 / (3.0 * radius)).abs() < 1e-5,
             "{spin} {radius}"
         );
+    }
+}
+
+/// What is undecided has a witness: the trailer that drives ahead keeps a yaw rate, so that its heading leaves, 1e-4 in the rate being 1e-4 t in the
+/// heading, and nothing departs faster.
+#[test]
+fn what_is_undecided_has_a_witness() {
+    let path = model("trailer");
+    let folder = std::env::temp_dir().join(format!("chetaev-witness-{}", std::process::id()));
+    let out = text(&folder);
+    let options = ["--claims", "stability.nonlinear", "--json", "--out", out];
+    let found = json(&[&["study", text(&path)], &options[..]].concat());
+    let _ = std::fs::remove_dir_all(&folder);
+    let all = found["verdicts"].as_array().unwrap().iter();
+    let own = all
+        .clone()
+        .find(|v| v["claim"] == "stability.nonlinear")
+        .unwrap();
+    assert_eq!(own["verdict"], "undecided");
+    let detail = own["detail"].as_str().unwrap();
+    // The modes decay with 2/s, so that 40 of their times are 20 s.
+    for part in [
+        "a numerical witness: of 12 motions",
+        "2.00e-3 away in theta_0 at t = 20.000 (moved in theta_0')",
+        "20 times as far",
+    ] {
+        assert!(detail.contains(part), "{detail}");
     }
 }

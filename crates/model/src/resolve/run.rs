@@ -45,7 +45,7 @@ impl Resolver {
                 initial.branch = branch.map(|branch| branch as usize);
                 continue;
             }
-            let Some((value, is_guess)) = self.value_or_guess(raw) else {
+            let Some((value, is_guess)) = self.value_or_guess(raw, "an initial value") else {
                 continue;
             };
             let Some(text) = self.expression_text(value, "an initial value") else {
@@ -62,17 +62,21 @@ impl Resolver {
     }
 
     /// A value, or the one in `{ guess = -1.8 }`, and whether it is a guess.
-    fn value_or_guess<'r>(&mut self, raw: &'r Raw) -> Option<(&'r Raw, bool)> {
+    pub(super) fn value_or_guess<'r>(
+        &mut self,
+        raw: &'r Raw,
+        what: &str,
+    ) -> Option<(&'r Raw, bool)> {
         let Kind::Table(table) = &raw.kind else {
             return Some((raw, false));
         };
-        self.known_keys(table, &["guess"], "of an initial value");
+        self.known_keys(table, &["guess"], &format!("of {what}"));
         let guess = table.get("guess");
         if guess.is_none() {
             self.push(Diagnostic::error(
                 "missing-value",
                 raw.place,
-                "an initial value is a number, an expression of parameters, or `{ guess = … }`, near which it is searched for",
+                format!("{what} is a number, an expression of parameters, or `{{ guess = … }}`, near which it is searched for"),
             ));
         }
         guess.map(|guess| (guess, true))

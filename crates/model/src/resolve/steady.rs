@@ -1,4 +1,4 @@
-//! Steady motions that the user names: `[steady.NAME]` with positions and velocities, `phi = 0`, `"x'" = "v"`.
+//! Steady motions that the user names: `[steady.NAME]` with positions and velocities, `phi = 0`, `"x'" = "v"`, `theta = { guess = 1 }`.
 
 use super::Resolver;
 use crate::diagnostic::Diagnostic;
@@ -35,7 +35,10 @@ impl Resolver {
         let mut state = Initial::default();
         let what = "a value of a steady motion";
         for (key, raw) in &table.entries {
-            let Some(text) = self.expression_text(raw, what) else {
+            let Some((value, is_guess)) = self.value_or_guess(raw, what) else {
+                continue;
+            };
+            let Some(text) = self.expression_text(value, what) else {
                 continue;
             };
             for instance in self.instances(key, what, &[]) {
@@ -47,7 +50,7 @@ impl Resolver {
                     Some(coordinate) => {
                         self.initial_coordinate(
                             key,
-                            (&text, false),
+                            (&text, is_guess),
                             &instance,
                             coordinate,
                             &mut state,

@@ -398,8 +398,11 @@ V = "1/2 k x^2"
     assert!(exponents.iter().all(|l| l.abs() < 0.01), "{exponents:?}");
 }
 
-/// A model with its system, its motion `stated` and the linear equations about it.
-fn linear(text: &str) -> (LinearMotion, Vec<(Complex<f64>, Vec<(f64, f64)>)>) {
+/// An eigenvalue with its vector.
+type ModeOf = (Complex<f64>, Vec<(f64, f64)>);
+
+/// The motions beside the steady motion that a model states, and the modes.
+fn linear(text: &str) -> (LinearMotion, Vec<ModeOf>) {
     let loaded = load("case.toml", text, &BTreeMap::new(), &[]);
     let model = loaded
         .model

@@ -49,6 +49,10 @@ impl Statement for Nonlinear {
         }
     }
 
+    fn is_witnessed(&self) -> bool {
+        true
+    }
+
     fn further(&self, about: &About<'_>) -> Vec<Expr> {
         // Where all eigenvalues lie left of the axis integrals are not needed.
         match about.question.place(true) {

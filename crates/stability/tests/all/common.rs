@@ -71,6 +71,7 @@ impl Case {
             name: "asked".into(),
             positions: names.clone().map(|name| of(name.clone())).collect(),
             velocities: names.map(|name| of(format!("{name}'"))).collect(),
+            guesses: Vec::new(),
         }
     }
 

@@ -3,6 +3,7 @@
 
 use crate::common::Case;
 use chetaev_stability::expansion::Expansion;
+use chetaev_stability::guess::near;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
 
 /// The steady motions for the values that the model states; each with a closed form is steady by the check that linearization makes.
@@ -196,4 +197,53 @@ y = 0
     let dimensions: Vec<usize> = own.found.iter().map(Found::dimension).collect();
     assert_eq!(dimensions.first(), Some(&0));
     assert!(dimensions[1..].iter().all(|&d| d == 1), "{dimensions:?}");
+}
+
+/// The motion that is meant by guesses, in numbers: positions, then velocities.
+fn meant(case: &Case) -> Result<Vec<f64>, String> {
+    let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);
+    let values = case.system.parameter_values();
+    let motion = &case.system.steady[0];
+    let found = near(&case.system, terms, selection, (motion, &values));
+    let found = found.map_err(|problem| problem.to_string())?;
+    assert!(found.guesses.is_empty());
+    let about = Expansion::new(&case.system, terms, selection, motion, &values);
+    assert!(about.is_ok(), "{:?}", about.err());
+    let all = found.positions.iter().chain(&found.velocities);
+    let all = all.map(|e| case.system.graph.substitute(e.unwrap(), &values));
+    let number = |e| case.system.graph.evaluate_f64(&[e], &|_| None).unwrap()[0];
+    Ok(all.map(number).collect())
+}
+
+/// The turning pendulum stays at cos θ = g/(l ω²) on both sides, hangs and stands: each is found from a guess nearer to it than to the others.
+#[test]
+fn the_motion_nearest_to_a_guess_is_meant() {
+    let with = |theta: &str| {
+        Case::new(&format!(
+            "{TURNING}[steady.aside]\ntheta = {theta}\n\"theta'\" = 0\n"
+        ))
+    };
+    let lean = (9.81_f64 / (0.5 * 36.0)).acos();
+    let pi = std::f64::consts::PI;
+    for (guess, expected) in [(0.9, lean), (-0.6, -lean), (0.3, 0.0), (3.0, pi)] {
+        let found = meant(&with(&format!("{{ guess = {guess} }}"))).unwrap();
+        assert!((found[0] - expected).abs() < 1e-14, "{guess}: {found:?}");
+    }
+    // What is given is no guess: there is no steady motion at 0.9.
+    let stated = with("0.9");
+    let (terms, selection) = (&stated.prepared.terms, &stated.prepared.selection);
+    let values = stated.system.parameter_values();
+    let motion = &stated.system.steady[0];
+    assert!(Expansion::new(&stated.system, terms, selection, motion, &values).is_err());
+    // At rest the zeros of x³ − 3x + 1 have no closed form here.
+    let cubic = Case::new("coordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\nV = \"x^4/4 - 3/2 x^2 + x\"\n[steady.low]\nx = { guess = 1.5 }\n");
+    assert!(meant(&cubic).unwrap_err().contains("closed form"));
+}
+
+/// A family takes what is given for its parameter: the sleigh at a speed that is stated, the turning guessed.
+#[test]
+fn a_member_of_a_family_is_meant() {
+    let own = "coordinates = [\"x\", \"y\", \"phi\"]\n[lagrangian]\nL = \"1/2 ((x' - phi' sin(phi))^2 + (y' + phi' cos(phi))^2)\"\n[constraints]\nblade = \"x' sin(phi) = y' cos(phi)\"\n[steady.straight]\nx = 0\ny = 0\nphi = 0\n\"x'\" = 3/2\n\"y'\" = 0\n\"phi'\" = { guess = 0.2 }\n";
+    let found = meant(&Case::new(&own.replace("= 3/2", "= \"3/2\""))).unwrap();
+    assert_eq!(found, [0.0, 0.0, 0.0, 1.5, 0.0, 0.0]);
 }

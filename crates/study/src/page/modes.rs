@@ -281,7 +281,7 @@ mod tests {
         assert_eq!(written((-0.5, 2.0)), "−0.5000 ± 2.0000 i");
         assert_eq!(written((1e-14, 2.0)), "± 2.0000 i");
         assert_eq!(
-            described((0.693_147_180_559_945_3, 0.0), " s"),
+            described((std::f64::consts::LN_2, 0.0), " s"),
             "It grows, twofold in 1.000 s."
         );
         // Three periods, unless the mode changes by e⁴ before.

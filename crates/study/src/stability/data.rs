@@ -146,6 +146,10 @@ impl Stability {
             found["frequency"] = json!(own.frequency);
             found["first_lyapunov"] = json!(own.coefficient);
         }
+        if let Some(why) = self.without_first_lyapunov(boundary) {
+            found["first_lyapunov"] = Value::Null;
+            found["undecided"] = json!(why);
+        }
         found
     }
 }

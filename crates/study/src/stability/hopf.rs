@@ -11,6 +11,17 @@ use chetaev_stability::steady::numbers;
 use chetaev_symbolic::Rational;
 
 impl Stability {
+    /// Why there is no first Lyapunov coefficient where a pair passes the axis.
+    pub fn without_first_lyapunov(&self, boundary: &Boundary) -> Option<&'static str> {
+        if boundary.crossing != Crossing::Pair || self.first_lyapunov(boundary).is_some() {
+            return None;
+        }
+        Some(match self.question.linear.family {
+            0 => "the first Lyapunov coefficient was not computed: the equations have no explicit form there, or a zero eigenvalue stands beside the pair",
+            _ => "the first Lyapunov coefficient was not computed: the motion belongs to a family of steady motions, whose zero eigenvalue stands beside the pair, and it is defined without one only",
+        })
+    }
+
     /// The first Lyapunov coefficient at a boundary, in numbers; `None` where no pair passes there, and where a zero of the family stands beside
     /// the pair.
     pub fn first_lyapunov(&self, boundary: &Boundary) -> Option<FirstLyapunov> {

@@ -10,6 +10,7 @@ use chetaev_mechanics::{Prepared, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::eigenvalues::{eigenvalues, Complex};
 use chetaev_stability::expansion::Expansion;
+use chetaev_stability::guess::near;
 use chetaev_stability::hurwitz::determinants;
 use chetaev_stability::question::{values_but_these, Question};
 use chetaev_stability::reduction::Speeds;
@@ -129,6 +130,7 @@ impl Asked {
             .into_iter()
             .next()
             .ok_or(StabilityError::SeveralMotions { names: Vec::new() })?;
+        let motion = near(&system, terms, selection, (&motion, &values))?.into_owned();
         let own = (&values[..], Speeds::Suitable);
         let about = Expansion::in_speeds(&system, terms, selection, &motion, own)?;
         let question = Question::about(&about, None);

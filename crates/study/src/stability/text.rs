@@ -263,6 +263,9 @@ impl Stability {
                             crate::follow::hopf(own.frequency, own.coefficient)
                         );
                     }
+                    if let Some(why) = self.without_first_lyapunov(boundary) {
+                        let _ = writeln!(text, "  {why}");
+                    }
                 }
             }
         }

@@ -1,0 +1,74 @@
+//! Motions that begin near a steady one: a witness where theory decides nothing on stability, and no proof.
+
+use crate::flow::{Coordinates, Flow};
+use crate::multipliers::eigenvalues;
+use crate::variational::{Extended, Order, Variational};
+use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_stability::steady::numbers;
+
+/// How far beside the motion the others begin, in one variable each.
+const NEAR: f64 = 1e-4;
+/// How long is looked, in times of the slowest mode that moves.
+const TIMES: f64 = 40.0;
+/// Eigenvalues below this part of the largest are zeros.
+const ZERO: f64 = 1e-6;
+
+/// What became of motions that begin near a steady one, for the values of parameters that the model states; `None` where they cannot be computed
+/// or finite constraints tie the variables.
+pub fn perturbed_runs(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    motion: &SteadyMotion,
+) -> Option<String> {
+    let values = system.parameter_values();
+    let point = numbers(motion, system, terms, (&selection.rows, &values)).ok()?;
+    let which = (Coordinates::NotIgnorable, &point[..]);
+    let flow = Flow::of_system(system, terms, selection, which).ok()?;
+    let start = flow.state(&point).ok()?;
+    if !flow.finite.is_empty() {
+        return None;
+    }
+    let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
+    let found = eigenvalues(&flow.slopes(&start, &parameters)?).ok()?;
+    let sizes: Vec<f64> = found.iter().map(|l| l.norm()).collect();
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let moving = sizes.into_iter().filter(|size| *size > ZERO * largest);
+    let slowest = moving.fold(f64::INFINITY, f64::min);
+    let end = if slowest.is_finite() {
+        TIMES / slowest
+    } else {
+        TIMES
+    };
+    let mut runs = Variational::new(&flow, Vec::new(), Order::Motion).ok()?;
+    let mut farthest: Option<(f64, usize, usize)> = None;
+    for moved in 0..flow.n() {
+        for sign in [1.0, -1.0] {
+            let mut state = start.clone();
+            state[moved] += sign * NEAR;
+            let last = runs.end((0.0, end), &Extended::start(&state, &runs));
+            // A run that ends early went where the equations end.
+            let Ok(last) = last else {
+                return Some(format!(
+                    "a numerical witness: a motion that begins {NEAR:e} beside it in {} ends before t = {end:.3}",
+                    flow.names[moved]
+                ));
+            };
+            let apart = last.state.iter().zip(&start).map(|(a, b)| (a - b).abs());
+            for (place, apart) in apart.enumerate() {
+                if farthest.is_none_or(|known| apart > known.0) {
+                    farthest = Some((apart, moved, place));
+                }
+            }
+        }
+    }
+    let (apart, moved, place) = farthest?;
+    let exponent = (apart / NEAR).ln() / end;
+    Some(format!(
+        "a numerical witness: of {} motions that begin {NEAR:e} beside it in one variable each, the farthest is {apart:.2e} away in {} at t = {end:.3} (moved in {}), which is {:.0} times as far, a Lyapunov exponent of {exponent:.2e} over this time",
+        2 * flow.n(),
+        flow.names[place],
+        flow.names[moved],
+        apart / NEAR
+    ))
+}
