@@ -42,18 +42,20 @@ impl Space {
         if !self.is_known_alone(function) {
             return;
         }
-        if let Some(value) = self.conjugate_of_quadratic(function) {
-            self.state_body(other, value);
+        let Some(gradient) = self.inverse_of_linear(function) else {
+            return;
+        };
+        match self.conjugate_value(function, &gradient) {
+            Some(value) => self.state_body(other, value),
+            None => self.state_gradient(other, gradient),
         }
     }
 
-    fn conjugate_of_quadratic(&self, function: usize) -> Option<Expr> {
+    /// The x at which `A'(x) = s`, in the place-holders, where the gradient is linear.
+    fn inverse_of_linear(&self, function: usize) -> Option<Vec<Expr>> {
         let g = &self.graph;
         let slots = self.slots(function);
-        let gradient: Option<Vec<Expr>> = (0..slots.len())
-            .map(|k| self.body(function, &[k], &slots))
-            .collect();
-        let gradient = gradient?;
+        let gradient = self.formula_of_gradient(function)?;
         let symbols: Vec<Symbol> = slots.iter().filter_map(|&s| g.as_symbol(s)).collect();
         let mut matrix = Vec::new();
         for &e in &gradient {
@@ -73,10 +75,16 @@ impl Space {
         let rest = g.substitute_all(&gradient, &at_zero);
         // The place-holders stand for the argument of the conjugate now.
         let right: Vec<Expr> = slots.iter().zip(rest).map(|(&s, r)| g.sub(s, r)).collect();
-        let x = g.solve(&matrix, &right).ok()?;
+        g.solve(&matrix, &right).ok()
+    }
+
+    /// `s x − A(x)` where A has a value.
+    fn conjugate_value(&self, function: usize, x: &[Expr]) -> Option<Expr> {
+        let g = &self.graph;
+        let slots = self.slots(function);
         let multiplicities = self.function_at(function).multiplicities;
-        let mut terms = vec![g.neg(self.body(function, &[], &x)?)];
-        for ((&y, &x), &m) in slots.iter().zip(&x).zip(&multiplicities) {
+        let mut terms = vec![g.neg(self.body(function, &[], x)?)];
+        for ((&y, &x), &m) in slots.iter().zip(x).zip(&multiplicities) {
             terms.push(g.mul(&[g.integer(m), x, y]));
         }
         Some(g.add(&terms))

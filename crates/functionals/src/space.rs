@@ -324,6 +324,15 @@ impl Space {
             .position(|own| own.name == name)
     }
 
+    /// An expression where an independent variable has a value.
+    pub fn at(&self, e: Expr, axis: usize, value: Expr) -> Expr {
+        let own = self
+            .coordinates
+            .get(axis)
+            .and_then(|c| self.graph.as_symbol(c.expr));
+        self.replace(e, &|symbol| (Some(symbol) == own).then_some(value))
+    }
+
     /// Assumes a comparison of fields, data and parameters.
     pub fn assume(&self, own: Assumption) {
         let mut all = self.assumptions.borrow_mut();
@@ -339,7 +348,20 @@ impl Space {
 
     /// The signs that an expression can have where what is assumed holds, as far as its structure tells.
     pub fn sign(&self, e: Expr) -> SignSet {
+        if self.is_slope_of_undone(e) {
+            return SignSet::POSITIVE.or(SignSet::NEGATIVE);
+        }
         known_sign(&self.graph, e, &self.assumptions.borrow())
+    }
+
+    /// Whether an expression is the second derivative of a function of one argument whose conjugate undoes its gradient: of
+    /// `B'(A'(x)) = x` follows `B''(A'(x)) A''(x) = 1`.
+    fn is_slope_of_undone(&self, e: Expr) -> bool {
+        let symbol = self.graph.as_symbol(e);
+        let own = symbol.and_then(|s| self.applications.borrow().get(&s).cloned());
+        own.is_some_and(|own| {
+            own.by.len() == 2 && own.arguments.len() == 1 && self.undoing(own.function).is_some()
+        })
     }
 
     /// Gives arguments a name for reading.
@@ -514,9 +536,27 @@ impl Space {
 
     /// Whether a function has a formula and its conjugate has none.
     pub(crate) fn is_known_alone(&self, function: usize) -> bool {
-        let stated = self.bodies.borrow();
         let other = self.function_at(function).conjugate;
-        stated.contains_key(&function) && other.is_some_and(|own| !stated.contains_key(&own))
+        let has_formula = |own: usize| self.formula_of_gradient(own).is_some();
+        has_formula(function) && other.is_some_and(|own| !has_formula(own))
+    }
+
+    /// The gradient of a function by its value or as it is stated, in its place-holders; `None` where it is not stated, or by other
+    /// functions of which nothing is known.
+    pub(crate) fn formula_of_gradient(&self, function: usize) -> Option<Vec<Expr>> {
+        let slots = self.slots(function);
+        let of_value = (0..slots.len()).map(|k| self.body(function, &[k], &slots));
+        if let Some(own) = of_value.collect::<Option<Vec<Expr>>>() {
+            return Some(own);
+        }
+        let stated = self.gradients.borrow().get(&function).cloned()?;
+        let values = stated.values.iter();
+        let values: Vec<Expr> = values
+            .map(|&e| self.put_in(&stated.slots, e, &slots))
+            .collect();
+        let symbols = self.graph.symbols_in(&values);
+        let is_abstract = symbols.into_iter().any(|s| self.is_application(s));
+        (!is_abstract).then_some(values)
     }
 
     /// Arguments of which others may be the image by a formula: tensors with a name, and jets for one argument, that occur in them.
@@ -557,10 +597,24 @@ impl Space {
 
     /// The same where other expressions are not negative.
     pub fn vanishing_where(&self, residuals: &[Expr], refute: bool, known: &[Expr]) -> Verdict {
-        let g = &self.graph;
         let mut assumptions = self.assumptions();
         for &e in known {
-            assumptions.assume(self.on_sphere(e), Relation::GreaterOrEqual, g.zero());
+            assumptions.assume(e, Relation::GreaterOrEqual, self.graph.zero());
+        }
+        self.vanishing_under(residuals, refute, &assumptions)
+    }
+
+    /// The same under these assumptions alone.
+    pub fn vanishing_under(
+        &self,
+        residuals: &[Expr],
+        refute: bool,
+        assumed: &Assumptions,
+    ) -> Verdict {
+        let mut assumptions = Assumptions::new();
+        for own in assumed.list() {
+            let (left, right) = (self.on_sphere(own.left), self.on_sphere(own.right));
+            assumptions.assume(left, own.relation, right);
         }
         let test = |residuals: &[Expr], refute: bool| {
             let test = ZeroTest {

@@ -158,12 +158,34 @@ pub fn variation(functional: &Functional) -> Result<Variation, VariationError> {
             }
         }
     }
-    corners.retain(|corner| !space.graph.is_zero(corner.value));
-    Ok(Variation {
+    let mut found = Variation {
         euler,
         pieces,
         corners,
-    })
+    };
+    found.put_in_places(functional);
+    Ok(found)
+}
+
+impl Variation {
+    /// On a face the variable across it has its value; conditions that say nothing then are none.
+    fn put_in_places(&mut self, functional: &Functional) {
+        let space = &*functional.space;
+        let placed = |e: Expr, name: &str| match functional.piece(name).map(|piece| &piece.side) {
+            Some(Side::Flat { axis, at, .. }) => space.at(e, *axis, *at),
+            _ => e,
+        };
+        for on in &mut self.pieces {
+            for condition in &mut on.conditions {
+                condition.value = placed(condition.value, &on.piece);
+            }
+            on.conditions.retain(|own| !space.graph.is_zero(own.value));
+        }
+        for corner in &mut self.corners {
+            corner.value = placed(placed(corner.value, &corner.pieces.0), &corner.pieces.1);
+        }
+        self.corners.retain(|own| !space.graph.is_zero(own.value));
+    }
 }
 
 /// The densities with multipliers, and what the multipliers are.

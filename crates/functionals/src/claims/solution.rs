@@ -9,7 +9,9 @@ use crate::read::on_side;
 use crate::space::Space;
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{rational, Expr, Symbol, Verdict};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions, Relation};
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// `functional.solution#NAME`.
 pub(super) struct Stated;
@@ -99,8 +101,20 @@ impl Inserted<'_> {
                 "the stated value of {name} needs itself, so that it is none"
             ));
         }
+        if let Some(violated) = self.violated() {
+            return Verdict::not_applicable(
+                "assumptions",
+                format!("the stated fields violate what the model assumes, {violated}"),
+            );
+        }
+        if let Some((what, where_rough)) = self.rough() {
+            return Verdict::undecided(format!(
+                "{what} was not shown to be smooth on the body: {where_rough}, and where it is not, the equations say nothing"
+            ));
+        }
+        let inside = self.inside();
         for (what, e) in self.residuals(variation) {
-            match space.vanishing(&[e], true) {
+            match space.vanishing_under(&[e], true, &inside) {
                 Verdict::Proved(_) => {}
                 other => {
                     return other.prefixed(&format!("{what} does not hold for the stated fields"))
@@ -122,7 +136,7 @@ impl Inserted<'_> {
                 return Verdict::undecided("the densities are no polynomials at the stated fields, so the value was not integrated");
             };
             let difference = space.graph.sub(value, self.at(*wanted));
-            match space.vanishing(&[difference], true) {
+            match space.vanishing_under(&[difference], true, &inside) {
                 Verdict::Proved(_) => told.push(format!("the value is {written}")),
                 other => {
                     let own = space.graph.text(value);
@@ -131,6 +145,59 @@ impl Inserted<'_> {
             }
         }
         Verdict::Proved(Proof::exact("the stated fields", told.join("; ")))
+    }
+
+    /// Places inside of the box of the solution.
+    fn inside(&self) -> Assumptions {
+        let space = &*self.functional.space;
+        let mut found = space.assumptions();
+        for own in &self.solution.intervals {
+            if let Some(place) = space.coordinates.get(own.axis).map(|c| c.expr) {
+                found.assume(own.lower, Relation::Less, own.upper);
+                found.assume(own.lower, Relation::Less, place);
+                found.assume(place, Relation::Less, own.upper);
+            }
+        }
+        found
+    }
+
+    /// Something that the model assumes and that is false for the stated fields.
+    fn violated(&self) -> Option<String> {
+        let g = &self.functional.space.graph;
+        let all = self.functional.space.assumptions();
+        let own = all.list().iter().find(|own| {
+            let difference = self.at(g.sub(own.left, own.right));
+            let sign = known_sign(g, difference, &self.inside());
+            is_contradicted(own.relation, sign)
+        })?;
+        let (left, right) = (g.text(own.left), g.text(own.right));
+        Some(format!("{left} {} {right}", own.relation.symbol()))
+    }
+
+    /// A stated field that may not be smooth on the body, and where: at zeros of what is under a root, a logarithm, an absolute value, or
+    /// of a denominator.
+    fn rough(&self) -> Option<(String, String)> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let inside = self.inside();
+        let is_of_place = |e: Expr| {
+            let symbols = g.symbols_in(&[e]);
+            let mut all = space.coordinates.iter();
+            all.any(|c| g.as_symbol(c.expr).is_some_and(|s| symbols.contains(&s)))
+        };
+        for (field, value) in self.pairs() {
+            for e in g.reachable(&[value]) {
+                let Some(inner) = singular_at(g, e).filter(|&e| is_of_place(e)) else {
+                    continue;
+                };
+                let sign = known_sign(g, inner, &inside);
+                if !sign.is_nonzero() {
+                    let what = format!("{} = {}", g.text(field), g.text(value));
+                    return Some((what, format!("{} may vanish there", g.text(inner))));
+                }
+            }
+        }
+        None
     }
 
     /// The stated values put in; fields with their derivatives.
@@ -455,6 +522,21 @@ impl Inserted<'_> {
             }
         }
         Some(found)
+    }
+}
+
+/// What an expression is not smooth at the zeros of.
+fn singular_at(g: &Graph, e: Expr) -> Option<Expr> {
+    match g.node(e) {
+        Node::Power { base, exponent } => {
+            let power = g.as_number(*exponent).and_then(rational::to_i64);
+            power.is_none_or(|n| n < 0).then_some(*base)
+        }
+        Node::Apply {
+            function: Function::Abs | Function::Log,
+            arguments,
+        } => arguments.first().copied(),
+        _ => None,
     }
 }
 

@@ -3,6 +3,8 @@
 use super::Solved;
 use crate::functional::Side;
 use crate::space::Jet;
+use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions};
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Node, Verdict};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -57,7 +59,7 @@ impl<'s> Solved<'s> {
     }
 
     /// On a face the variable across it has its value.
-    fn placed(&self, e: Expr) -> Expr {
+    pub(super) fn placed(&self, e: Expr) -> Expr {
         let g = &self.space.graph;
         self.space.replace(e, &|symbol| {
             let is_own = |(axis, _): &&(usize, Expr)| {
@@ -110,14 +112,27 @@ impl<'s> Solved<'s> {
             for factor in factors {
                 let mut case = own.clone();
                 case.left[group].equations[at] = factor;
+                case.case.push(factor);
                 case.prolonged = RefCell::default();
                 case.known.borrow_mut().clear();
                 case.solve();
+                case.take_back();
                 open.push((case, depth + 1));
             }
         }
-        found.retain(|case| case.contradiction_as_solved().is_none());
+        found.retain(|case| case.contradiction_as_solved().is_none() && !case.is_excluded());
         Some(found)
+    }
+
+    /// Whether something that is assumed is false wherever the equations hold.
+    fn is_excluded(&self) -> bool {
+        let g = &self.space.graph;
+        let here = self.assumed_here();
+        let mut all = here.list().iter();
+        all.any(|own| {
+            let difference = g.sub(own.left, own.right);
+            is_contradicted(own.relation, known_sign(g, difference, &Assumptions::new()))
+        })
     }
 
     /// The first equation that is left and is a product of several factors with jets.
@@ -133,18 +148,15 @@ impl<'s> Solved<'s> {
         })
     }
 
-    /// The factors of an expression in which jets occur, without those that are known to vanish nowhere. A function of which nothing is
-    /// known is no factor by itself: where it does not vanish is a condition on the function, as it is on a parameter.
+    /// The factors of an expression in which jets occur, without those that are known to vanish nowhere.
     fn factors_with_jets(&self, e: Expr) -> Vec<Expr> {
         let space = self.space;
-        let g = &space.graph;
-        let is_function = |e| g.as_symbol(e).is_some_and(|s| space.is_application(s));
         let has_jets = |&factor: &Expr| {
             let mut jets = space.jets_in(&[factor]).into_iter();
             jets.any(|jet| !space.is_curvature(jet.component)) && !space.sign(factor).is_nonzero()
         };
         let mut own = self.factors(e);
-        own.retain(|e| has_jets(e) && !is_function(*e));
+        own.retain(has_jets);
         own
     }
 
@@ -178,14 +190,16 @@ impl<'s> Solved<'s> {
     /// where the equations hold: the components less the rank of the slopes by all their jets. `None` where the rank is not known.
     pub fn free_components(&self, components: &[usize], es: &[Expr]) -> Option<usize> {
         let space = self.space;
-        let jets = space.jets_in(es);
+        // Of a power what it is of: its slopes vanish where it does.
+        let es: Vec<Expr> = es.iter().map(|&e| self.stripped(e)).collect();
+        let jets = space.jets_in(&es);
         let own: BTreeSet<Vec<usize>> = jets
             .into_iter()
             .filter(|jet| components.contains(&jet.component))
             .map(|jet| jet.by)
             .collect();
         let mut matrix = Vec::new();
-        for &e in es {
+        for &e in &es {
             for by in &own {
                 let slope = |&component: &usize| {
                     let by = by.clone();

@@ -27,6 +27,7 @@ use self::ranking::Ranking;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
 use chetaev_symbolic::{rational, Expr, Node, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,6 +47,7 @@ pub struct Group {
 pub struct Solved<'s> {
     space: &'s Space,
     rules: Vec<Rule>,
+    adopted: Vec<Adopted>,
     place: Option<Side>,
     /// Variables that are constant where the equations hold, with their values.
     constant: Vec<(usize, Expr)>,
@@ -72,6 +74,8 @@ pub struct Solved<'s> {
     together: RefCell<BTreeMap<(Expr, Expr), bool>>,
     /// The factors of equations.
     factors: RefCell<BTreeMap<Expr, Vec<Expr>>>,
+    /// Factors that vanish in the case at hand.
+    pub case: Vec<Expr>,
     /// Equations that are left, with their labels.
     pub left: Vec<Group>,
     /// Matrices that were inverted and are no numbers.
@@ -97,6 +101,15 @@ struct Rule {
     jet: Jet,
     value: Expr,
     reach: Reach,
+}
+
+/// Equations that gave rules, with the first of these and what was divided by.
+#[derive(Clone, Debug)]
+struct Adopted {
+    first_rule: usize,
+    label: String,
+    equations: Vec<Expr>,
+    divisor: Option<Expr>,
 }
 
 /// Where a rule holds, and so by what it may be differentiated.
@@ -138,6 +151,7 @@ impl<'s> Solved<'s> {
         Solved {
             space,
             rules: Vec::new(),
+            adopted: Vec::new(),
             place: None,
             constant: Vec::new(),
             is_corner: false,
@@ -154,6 +168,7 @@ impl<'s> Solved<'s> {
             judged: RefCell::default(),
             together: RefCell::default(),
             factors: RefCell::default(),
+            case: Vec::new(),
             left: Vec::new(),
             pivots: Vec::new(),
             inverted: BTreeSet::new(),
@@ -226,7 +241,16 @@ impl<'s> Solved<'s> {
         own.left.extend(groups.iter().cloned());
         own.prolonged = RefCell::default();
         own.solve();
+        if own.place.is_some() {
+            // What was divided by in the interior may vanish on the boundary.
+            own.take_back();
+        }
         own
+    }
+
+    /// An expression where the equations hold, and at the place where they do.
+    pub fn here(&self, e: Expr) -> Expr {
+        self.placed(self.normal(e))
     }
 
     /// The order up to which conditions of integrability are looked at before something is refuted: two derivatives of the highest order
@@ -385,7 +409,7 @@ impl<'s> Solved<'s> {
 
     /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.
     pub fn follows(&self, es: &[Expr]) -> bool {
-        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.vanishes(own.normal(e)));
+        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.vanishes(own.here(e)));
         is_so(self) || self.cases().is_some_and(|all| all.iter().all(is_so))
     }
 
@@ -422,7 +446,7 @@ impl<'s> Solved<'s> {
 
     /// The verdict with what is solved alone, whatever is left.
     pub fn verdict_as_solved(&self, e: Expr) -> Verdict {
-        let own = self.normal(e);
+        let own = self.here(e);
         match self.space.vanishing(&[own], false) {
             Verdict::Proved(proof) => Verdict::Proved(proof),
             _ if self.is_multiple(own) => Verdict::Proved(Proof::exact(
@@ -444,7 +468,7 @@ impl<'s> Solved<'s> {
             return Verdict::Refuted(found);
         }
         let full = self.prolonged();
-        let own = full.normal(e);
+        let own = full.here(e);
         if full.pivots != self.pivots {
             return Verdict::undecided(format!(
                 "conditions of integrability up to order {} can be solved only where a coefficient that depends on fields does not vanish",
@@ -491,18 +515,39 @@ impl<'s> Solved<'s> {
             ));
         }
         let plane = space.on_plane(e);
-        let known = |y: &Expr| space.on_plane(space.explicit(self.normal(*y)));
-        let known: Vec<Expr> = self.nonnegative.iter().map(known).collect();
+        let known = self.assumed_here();
         if plane == e {
-            return space.vanishing_where(&[e], true, &known);
+            return space.vanishing_under(&[e], true, &known);
         }
-        match space.vanishing_where(&[plane], true, &known) {
+        match space.vanishing_under(&[plane], true, &known) {
             Verdict::Refuted(found) => Verdict::Refuted(found),
             _ if space.has_curvature_derivatives(e) => Verdict::undecided(
                 "it vanishes where the boundary is plane, and contains derivatives of the curvature elsewhere",
             ),
             _ => space.vanishing(&[e], true),
         }
+    }
+
+    /// What is assumed, where the equations hold: a counterexample satisfies both.
+    pub(super) fn assumed_here(&self) -> Assumptions {
+        let space = self.space;
+        let here = |e: Expr| self.placed(space.on_plane(space.explicit(self.normal(e))));
+        let mut found = Assumptions::new();
+        let is_across = |e: Expr| {
+            let mut constant = self.constant.iter();
+            constant.any(|(axis, _)| space.coordinates.get(*axis).is_some_and(|c| c.expr == e))
+        };
+        for own in space.assumptions().list() {
+            // On a face the variable across it is at the end of its interval, and not inside.
+            if is_across(own.left) || is_across(own.right) {
+                continue;
+            }
+            found.assume(here(own.left), own.relation, here(own.right));
+        }
+        for &e in &self.nonnegative {
+            found.assume(here(e), Relation::GreaterOrEqual, space.graph.zero());
+        }
+        found
     }
 
     /// Whether an expression e is an equation f that is left times a factor without fields: then `e f₀ = e₀ f` for all jets, with the

@@ -1,6 +1,7 @@
 //! Groups of equations solved one after the other: for which tensor, by which rows, and what is divided by.
 
-use super::{rest, Pivot, Rule, Solved, MOST_ROUNDS};
+use super::ranking::Ranking;
+use super::{rest, Adopted, Group, Pivot, Rule, Solved, MOST_ROUNDS};
 use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
@@ -61,7 +62,7 @@ impl Solved<'_> {
                 let parts = group
                     .equations
                     .iter()
-                    .flat_map(|&e| self.parts(self.normal(e)));
+                    .flat_map(|&e| self.parts(self.here(e)));
                 group.equations = parts.map(|e| self.stripped(e)).collect();
                 group.equations.retain(|&e| !self.vanishes(e));
             }
@@ -133,7 +134,7 @@ impl Solved<'_> {
     }
 
     /// An equation without factors that never vanish, and without positive powers, which vanish where what they are of does.
-    fn stripped(&self, e: Expr) -> Expr {
+    pub(super) fn stripped(&self, e: Expr) -> Expr {
         let g = &self.space.graph;
         let is_product = matches!(g.node(e), Node::Product { .. });
         if !is_product && !self.may_have_assumed_factors(e) {
@@ -463,6 +464,18 @@ impl Solved<'_> {
         if let Some(jet) = choice.jets.first() {
             self.note_divisors(&choice.matrix, jet.component);
         }
+        let group = &self.left[choice.group];
+        self.adopted.push(Adopted {
+            first_rule: self.rules.len(),
+            label: group.label.clone(),
+            equations: choice
+                .rows
+                .iter()
+                .map(|&row| group.equations[row])
+                .collect(),
+            divisor: (choice.matrix.len() <= LARGEST_DETERMINANT)
+                .then(|| determinant(&self.space.graph, &choice.matrix)),
+        });
         for (jet, value) in choice.jets.into_iter().zip(values) {
             let reach = self.reach(&jet);
             self.rules.push(Rule { jet, value, reach });
@@ -476,6 +489,35 @@ impl Solved<'_> {
             !choice.rows.contains(&(row - 1))
         });
         true
+    }
+
+    /// Takes back rules that were found by dividing by what vanishes in the case at hand, with all that came after them: their equations
+    /// are left again.
+    pub(super) fn take_back(&mut self) {
+        for _ in 0..MOST_ROUNDS {
+            let has_vanished = |own: &Adopted| {
+                let divisor = own
+                    .divisor
+                    .filter(|&e| self.space.graph.as_number(e).is_none());
+                divisor.is_some_and(|e| self.vanishes(self.here(e)))
+            };
+            let Some(at) = self.adopted.iter().position(has_vanished) else {
+                return;
+            };
+            let taken = self.adopted.split_off(at);
+            let first = taken.first().map_or(self.rules.len(), |own| own.first_rule);
+            self.rules.truncate(first);
+            let groups = taken.into_iter().rev();
+            self.left.extend(groups.map(|own| Group {
+                label: own.label,
+                equations: own.equations,
+            }));
+            self.crossed.clear();
+            self.known.borrow_mut().clear();
+            self.ranking = Some(Ranking::by_order(self.space));
+            self.ranking = self.ranking_with(Vec::new());
+            self.solve();
+        }
     }
 
     /// `B'(Y) = X` as `Y = A'(X)` in a group that was not changed yet.
@@ -543,6 +585,15 @@ impl Solved<'_> {
     fn note_divisors(&mut self, matrix: &[Vec<Expr>], component: usize) {
         let of_row = |row: &Vec<Expr>| row.iter().map(|&e| self.space.explicit(e)).collect();
         let matrix: Vec<Vec<Expr>> = matrix.iter().map(of_row).collect();
+        let size = matrix.len();
+        let is_regular = size <= LARGEST_DETERMINANT
+            && self
+                .space
+                .sign(determinant(&self.space.graph, &matrix))
+                .is_nonzero();
+        if is_regular {
+            return;
+        }
         let has_fields = self.has_fields(&matrix.concat());
         if !has_fields && matrix.iter().all(|row| self.is_free(row)) {
             self.note_nonzero(&matrix, Some(component));

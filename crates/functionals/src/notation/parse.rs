@@ -52,6 +52,17 @@ pub fn parse_comparison(
         let span = reader.span();
         let Some(relation) = comparison(written) else {
             let message = "an assumption is a comparison, and this is an equation";
+            reader.at += 1;
+            if matches!(
+                reader.kind(),
+                Some(TokenKind::Relation(Relation::Greater | Relation::Less))
+            ) {
+                let span = span.to(reader.span());
+                let message = "this sign has no meaning";
+                return reader.fail(
+                    Diagnostic::error("not-a-comparison", span, message).hint("write >= or <="),
+                );
+            }
             return reader.fail(
                 Diagnostic::error("not-a-comparison", span, message)
                     .hint("an equation that holds beforehand is stated in [equations] and named under `imposed`"),

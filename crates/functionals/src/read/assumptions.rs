@@ -5,7 +5,7 @@ use crate::notation::{check, parse_comparison};
 use crate::tensors::Scope;
 use chetaev_model::raw::Table;
 use chetaev_model::{Diagnostic, Text};
-use chetaev_symbolic::zero::assumptions::{Assumption, Assumptions, Relation, SignSet};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumption, Assumptions};
 use chetaev_symbolic::zero::known_sign;
 use std::collections::BTreeMap;
 
@@ -54,6 +54,14 @@ impl Reader<'_> {
                 );
                 return false;
             }
+            if is_contradicted(relation, scope.space.sign(g.sub(left, right))) {
+                let message = format!("`{}` contradicts what is assumed before it", text.content);
+                self.push(
+                    Diagnostic::error("false-assumption", text.place, message)
+                        .hint("the box of [domain] intervals is assumed too"),
+                );
+                return false;
+            }
             if !scope.space.symbols_in(&[left, right]).is_empty() {
                 says = true;
                 scope.space.assume(Assumption {
@@ -64,16 +72,5 @@ impl Reader<'_> {
             }
         }
         says
-    }
-}
-
-/// Whether a comparison with zero holds for no sign that is possible.
-fn is_contradicted(relation: Relation, sign: SignSet) -> bool {
-    match relation {
-        Relation::Less => sign.is_nonnegative(),
-        Relation::LessOrEqual => sign.is_positive(),
-        Relation::Greater => sign.is_nonpositive(),
-        Relation::GreaterOrEqual => sign.is_nonpositive() && sign.is_nonzero(),
-        Relation::NotEqual => sign.is_nonnegative() && sign.is_nonpositive(),
     }
 }

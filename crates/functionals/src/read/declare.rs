@@ -317,6 +317,13 @@ impl Reader<'_> {
                 continue;
             }
             let value = self.override_of(&key.content).or(value);
+            if let (Some(text), true) = (&value, shape != Shape::Scalar) {
+                let message = format!("`{}` is a tensor, and has no single value", key.content);
+                self.push(Diagnostic::error("bad-value", text.place, message).hint(
+                    "its components stand in formulas, or in `at` and [solutions] by their indices",
+                ));
+                continue;
+            }
             // Before the name is declared: a parameter is not stated by itself.
             let value = value.and_then(|text| self.scalar(scope, &text));
             constants(scope, &key.content, shape);

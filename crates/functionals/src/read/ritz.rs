@@ -118,7 +118,10 @@ impl Reader<'_> {
         let e = crate::ritz::with_values(functional, asked, e);
         let found = functional.space.graph.as_number(e).cloned();
         if found.is_none() {
-            let message = format!("`{}` is no number with the values of [ritz]", text.content);
+            let message = format!(
+                "`{}` is no rational number with the values of [ritz]",
+                text.content
+            );
             self.push(Diagnostic::error("bad-value", text.place, message));
         }
         found

@@ -9,6 +9,7 @@ use crate::tensors::{tuples, Scope, Tensor};
 use chetaev_model::raw::{Kind, Raw, Table};
 use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::names::closest;
+use chetaev_symbolic::zero::assumptions::{Assumption, Relation};
 use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
 
@@ -42,6 +43,7 @@ impl Reader<'_> {
         self.function_rules(table, &mut scope, &functions);
         let assumptions = self.assumptions(table, &scope);
         let intervals = self.intervals(table, &scope);
+        inside(&scope, &intervals);
         let Some(text) = self.optional(table, "density") else {
             let message = "a functional needs its density";
             self.push(
@@ -588,6 +590,25 @@ impl Reader<'_> {
     }
 }
 
+/// Every place is inside of the box.
+fn inside(scope: &Scope, intervals: &[Interval]) {
+    for own in intervals {
+        let place = scope.space.coordinates[own.axis].expr;
+        for (left, right) in [
+            (own.lower, own.upper),
+            (own.lower, place),
+            (place, own.upper),
+        ] {
+            let relation = Relation::Less;
+            scope.space.assume(Assumption {
+                left,
+                relation,
+                right,
+            });
+        }
+    }
+}
+
 /// The name of what is defined, without its letters.
 fn head_of(key: &Text) -> &str {
     key.content
@@ -595,14 +616,15 @@ fn head_of(key: &Text) -> &str {
         .map_or(key.content.as_str(), |own| own.0)
 }
 
-/// What holds on a piece: on a face of a box the normal is known.
+/// What holds on a piece: on a face of a box the normal is known, and the variable across it.
 pub(crate) fn on_side(scope: &Scope, side: &Side, e: Expr) -> Expr {
-    let Side::Flat { axis, is_upper, .. } = side else {
+    let Side::Flat { axis, is_upper, at } = side else {
         return e;
     };
     let g = &scope.space.graph;
     let symbols = scope.space.normals();
-    scope.space.replace(scope.space.on_plane(e), &|symbol| {
+    let e = scope.space.at(scope.space.on_plane(e), *axis, *at);
+    scope.space.replace(e, &|symbol| {
         let at = symbols.iter().position(|&n| n == symbol)?;
         Some(match (at == *axis, is_upper) {
             (true, true) => g.one(),

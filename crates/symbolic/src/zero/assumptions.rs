@@ -55,6 +55,11 @@ impl Relation {
     }
 }
 
+/// Whether a comparison with zero is false for all signs that are possible.
+pub fn is_contradicted(relation: Relation, sign: SignSet) -> bool {
+    relation.signs().0 & sign.0 == 0
+}
+
 /// One assumption, `left relation right`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Assumption {

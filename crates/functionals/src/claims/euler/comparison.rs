@@ -314,7 +314,10 @@ impl<'f> Comparison<'f> {
             let labels: Vec<String> = labels.map(|group| format!("`{}`", group.label)).collect();
             // One case in which it is false is enough, whatever is open about others.
             if let (Verdict::Refuted(_), true) = (&verdict, labels.is_empty()) {
-                all = verdict;
+                let g = &self.functional.space.graph;
+                let zeros = case.case.iter().map(|&e| format!("{} = 0", g.text(e)));
+                let zeros: Vec<String> = zeros.collect();
+                all = verdict.prefixed(&format!("where {}", zeros.join(" and ")));
                 open.clear();
                 break;
             }
@@ -564,7 +567,7 @@ pub(super) fn groups(functional: &Functional, role: Role, on: Option<&str>) -> V
 /// The Euler equations, those of one field together.
 fn euler_groups(functional: &Functional, variation: &Variation) -> Vec<Group> {
     let own = functional.interior().map(|field| Group {
-        label: field.name.clone(),
+        label: format!("the Euler equation of {}", field.name),
         equations: variation
             .euler
             .iter()

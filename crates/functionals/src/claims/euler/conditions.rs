@@ -1,11 +1,14 @@
 //! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
 
 use crate::functional::{Functional, Role};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, Relation};
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
 use std::collections::BTreeSet;
 
-/// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it.
-pub(super) fn where_defined(functional: &Functional) -> String {
+/// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it. `None` where
+/// what they ask for excludes itself.
+pub(super) fn where_defined(functional: &Functional) -> Option<String> {
     let stated = functional.equations.iter();
     let stated = stated.filter(|e| e.role != Role::Other);
     let stated: Vec<Expr> = stated.flat_map(|e| e.residuals.iter().copied()).collect();
@@ -13,11 +16,24 @@ pub(super) fn where_defined(functional: &Functional) -> String {
     densities.extend(functional.pieces.iter().map(|piece| piece.density));
     let mut all = conditions(functional, &densities, Need::Slope);
     all.extend(conditions(functional, &stated, Need::Value));
-    if all.is_empty() {
-        return String::new();
+    let g = &functional.space.graph;
+    let mut together = functional.space.assumptions();
+    for &(left, relation) in &all {
+        let right = g.zero();
+        let sign = known_sign(g, left, &together);
+        if is_contradicted(relation, sign) {
+            return None;
+        }
+        together.assume(left, relation, right);
     }
-    let all: Vec<String> = all.into_iter().collect();
-    format!(", where {}", all.join(", "))
+    if all.is_empty() {
+        return Some(String::new());
+    }
+    let texts = all.iter();
+    let texts = texts.map(|(e, relation)| format!("{} {} 0", g.text(*e), relation.symbol()));
+    let texts: BTreeSet<String> = texts.collect();
+    let texts: Vec<String> = texts.into_iter().collect();
+    Some(format!(", where {}", texts.join(", ")))
 }
 
 /// What an expression is needed for.
@@ -30,7 +46,7 @@ enum Need {
 }
 
 /// Conditions under which expressions have values, or derivatives.
-fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<String> {
+fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<(Expr, Relation)> {
     let g = &functional.space.graph;
     let is_smooth = need == Need::Slope;
     let condition = |e: Expr| {
@@ -42,11 +58,11 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<Stri
                 let is_even_root =
                     number.is_none_or(|n| n.denominator().trailing_zeros() != Some(0));
                 match (is_whole, is_even_root) {
-                    (true, _) if is_negative => (*base, "!="),
+                    (true, _) if is_negative => (*base, Relation::NotEqual),
                     (true, _) => return None,
-                    (false, true) if is_smooth || is_negative => (*base, ">"),
-                    (false, true) => (*base, ">="),
-                    (false, false) if is_smooth || is_negative => (*base, "!="),
+                    (false, true) if is_smooth || is_negative => (*base, Relation::Greater),
+                    (false, true) => (*base, Relation::GreaterOrEqual),
+                    (false, false) if is_smooth || is_negative => (*base, Relation::NotEqual),
                     (false, false) => return None,
                 }
             }
@@ -54,20 +70,20 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> BTreeSet<Stri
                 function,
                 arguments,
             } => match function {
-                Function::Log => (*arguments.first()?, ">"),
-                Function::Abs if is_smooth => (*arguments.first()?, "!="),
+                Function::Log => (*arguments.first()?, Relation::Greater),
+                Function::Abs if is_smooth => (*arguments.first()?, Relation::NotEqual),
                 _ => return None,
             },
             _ => return None,
         };
         let sign = functional.space.sign(inner);
         let is_known = match relation {
-            ">" => sign.is_positive(),
-            ">=" => sign.is_nonnegative(),
+            Relation::Greater => sign.is_positive(),
+            Relation::GreaterOrEqual => sign.is_nonnegative(),
             _ => sign.is_nonzero(),
         };
         let has_jets = !functional.space.jets_in(&[inner]).is_empty();
-        (has_jets && !is_known).then(|| format!("{} {relation} 0", g.text(inner)))
+        (has_jets && !is_known).then_some((inner, relation))
     };
     g.reachable(es).into_iter().filter_map(condition).collect()
 }

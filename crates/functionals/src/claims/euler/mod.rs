@@ -64,7 +64,19 @@ impl Claim for Euler {
                 if let Some(said) = cx.admission.of_redundant() {
                     proof.detail.push_str(&format!(", with {said}"));
                 }
-                proof.on.push_str(&where_defined(functional));
+                match where_defined(functional) {
+                    Some(said) => {
+                        proof.on.push_str(&said);
+                        proof.detail.push_str(&said);
+                    }
+                    None => {
+                        return Verdict::not_applicable(
+                            "functional.euler",
+                            "what is stated is defined nowhere: its roots, logarithms and denominators exclude each other",
+                        )
+                        .into()
+                    }
+                }
                 Verdict::Proved(proof).into()
             }
             other => other.into(),
