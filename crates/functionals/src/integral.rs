@@ -2,7 +2,7 @@
 
 use crate::functional::{Interval, Side};
 use crate::space::Space;
-use chetaev_symbolic::{rational, Expr};
+use chetaev_symbolic::{rational, Expr, Function, Node};
 
 /// Highest degree by one variable.
 const HIGHEST_DEGREE: usize = 40;
@@ -12,6 +12,9 @@ pub fn coefficients(space: &Space, e: Expr, axis: usize) -> Option<Vec<Expr>> {
     let g = &space.graph;
     let variable = space.coordinates.get(axis)?.expr;
     let symbol = g.as_symbol(variable)?;
+    if !is_analytic(space, e, variable) {
+        return None;
+    }
     let one = g.one();
     let mut found = Vec::new();
     let mut slope = e;
@@ -30,6 +33,22 @@ pub fn coefficients(space: &Space, e: Expr, axis: usize) -> Option<Vec<Expr>> {
             .swap_remove(0);
     }
     None
+}
+
+/// Whether an expression is given by the Taylor series that its derivatives are of: |x| and roots are so on each side of their zeros only.
+fn is_analytic(space: &Space, e: Expr, variable: Expr) -> bool {
+    let g = &space.graph;
+    let Some(symbol) = g.as_symbol(variable) else {
+        return false;
+    };
+    g.reachable(&[e]).into_iter().all(|own| {
+        let is_piecewise = match g.node(own) {
+            Node::Apply { function, .. } => matches!(function, Function::Abs | Function::Sign),
+            Node::Power { exponent, .. } => g.as_number(*exponent).is_none_or(|n| !n.is_int()),
+            _ => false,
+        };
+        !is_piecewise || !g.contains_any(own, &[symbol])
+    })
 }
 
 /// The integral by one variable.

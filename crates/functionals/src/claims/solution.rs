@@ -9,7 +9,7 @@ use crate::read::on_side;
 use crate::space::Space;
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions, Relation};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Assumptions, Relation};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Symbol, Verdict};
 
@@ -187,13 +187,17 @@ impl Inserted<'_> {
         };
         for (field, value) in self.pairs() {
             for e in g.reachable(&[value]) {
-                let Some(inner) = singular_at(g, e).filter(|&e| is_of_place(e)) else {
+                let Some((inner, wanted)) = smooth_where(g, e).filter(|own| is_of_place(own.0))
+                else {
                     continue;
                 };
-                let sign = known_sign(g, inner, &inside);
-                if !sign.is_nonzero() {
+                if !is_implied(wanted, known_sign(g, inner, &inside)) {
                     let what = format!("{} = {}", g.text(field), g.text(value));
-                    return Some((what, format!("{} may vanish there", g.text(inner))));
+                    let wanted = wanted.symbol();
+                    return Some((
+                        what,
+                        format!("{} {wanted} 0 was not shown there", g.text(inner)),
+                    ));
                 }
             }
         }
@@ -525,17 +529,24 @@ impl Inserted<'_> {
     }
 }
 
-/// What an expression is not smooth at the zeros of.
-fn singular_at(g: &Graph, e: Expr) -> Option<Expr> {
+/// What has to be so that a node is defined and smooth: an expression compared with zero.
+fn smooth_where(g: &Graph, e: Expr) -> Option<(Expr, Relation)> {
     match g.node(e) {
-        Node::Power { base, exponent } => {
-            let power = g.as_number(*exponent).and_then(rational::to_i64);
-            power.is_none_or(|n| n < 0).then_some(*base)
-        }
+        Node::Power { base, exponent } => match g.as_number(*exponent).and_then(rational::to_i64) {
+            None => Some((*base, Relation::Greater)),
+            Some(n) => (n < 0).then_some((*base, Relation::NotEqual)),
+        },
         Node::Apply {
-            function: Function::Abs | Function::Log,
+            function,
             arguments,
-        } => arguments.first().copied(),
+        } => {
+            let inner = *arguments.first()?;
+            match function {
+                Function::Abs | Function::Sign => Some((inner, Relation::NotEqual)),
+                Function::Log => Some((inner, Relation::Greater)),
+                _ => None,
+            }
+        }
         _ => None,
     }
 }

@@ -190,6 +190,20 @@ impl<'s> Solved<'s> {
     /// where the equations hold: the components less the rank of the slopes by all their jets. `None` where the rank is not known.
     pub fn free_components(&self, components: &[usize], es: &[Expr]) -> Option<usize> {
         let space = self.space;
+        // What the others determine is not free, though slopes vanish where an equation has a multiple zero.
+        let is_determined = |&component: &usize| {
+            let by = Vec::new();
+            let own = Jet { component, by };
+            let value = self.normal(space.jet(component, &[]));
+            let mut others = space.jets_in(&[value]).into_iter();
+            self.rule(&own).is_some() && others.all(|jet| !components.contains(&jet.component))
+        };
+        let components: Vec<usize> = components
+            .iter()
+            .copied()
+            .filter(|c| !is_determined(c))
+            .collect();
+        let components = &components[..];
         // Of a power what it is of: its slopes vanish where it does.
         let es: Vec<Expr> = es.iter().map(|&e| self.stripped(e)).collect();
         let jets = space.jets_in(&es);

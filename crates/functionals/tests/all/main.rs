@@ -16,6 +16,7 @@ mod mutants;
 mod names;
 mod noether;
 mod pieces;
+mod places;
 mod printed;
 mod reference;
 mod restrictions;

@@ -60,6 +60,11 @@ pub fn is_contradicted(relation: Relation, sign: SignSet) -> bool {
     relation.signs().0 & sign.0 == 0
 }
 
+/// Whether a comparison with zero is true for all signs that are possible.
+pub fn is_implied(relation: Relation, sign: SignSet) -> bool {
+    sign.0 & !relation.signs().0 == 0
+}
+
 /// One assumption, `left relation right`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Assumption {

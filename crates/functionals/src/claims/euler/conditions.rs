@@ -1,7 +1,7 @@
 //! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
 
 use crate::functional::{Functional, Role};
-use chetaev_symbolic::zero::assumptions::{is_contradicted, Relation};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Relation};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
 use std::collections::BTreeSet;
@@ -17,6 +17,7 @@ pub(super) fn where_defined(functional: &Functional) -> Option<String> {
     let mut all = conditions(functional, &densities, Need::Slope);
     all.extend(conditions(functional, &stated, Need::Value));
     let g = &functional.space.graph;
+    let mut needed = Vec::new();
     let mut together = functional.space.assumptions();
     for &(left, relation) in &all {
         let right = g.zero();
@@ -24,12 +25,15 @@ pub(super) fn where_defined(functional: &Functional) -> Option<String> {
         if is_contradicted(relation, sign) {
             return None;
         }
-        together.assume(left, relation, right);
+        if !is_implied(relation, sign) {
+            together.assume(left, relation, right);
+            needed.push((left, relation));
+        }
     }
-    if all.is_empty() {
+    if needed.is_empty() {
         return Some(String::new());
     }
-    let texts = all.iter();
+    let texts = needed.iter();
     let texts = texts.map(|(e, relation)| format!("{} {} 0", g.text(*e), relation.symbol()));
     let texts: BTreeSet<String> = texts.collect();
     let texts: Vec<String> = texts.into_iter().collect();
