@@ -9,7 +9,7 @@
 //! follows by differentiation and elimination is no counterexample, and where conditions beyond that order are left nothing is refuted.
 //!
 //! Which jet of an equation is solved for is chosen by what it costs, and so that there is a ranking of all jets (C. Riquier 1910) in which
-//! it is the highest; see [`ranking`]. Where there is none, rules may lead back to each other, or hide a condition. A circle is cut where it
+//! it is the highest (`ranking`). Where there is none, rules may lead back to each other, or hide a condition. A circle is cut where it
 //! closes: what is proved remains so, since a rule that is not used takes nothing away, but what is left over is no normal form, and nothing
 //! is refuted with it.
 //!
