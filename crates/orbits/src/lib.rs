@@ -8,7 +8,7 @@
 //! 4. [`branch`]: continuation by pseudo-arclength (Keller 1977), across the families that the equations have by structure; [`equilibria`] and
 //!    [`periodic`] say of what.
 //! 5. [`hopf`]: the first Lyapunov coefficient where a pair of eigenvalues passes the imaginary axis.
-//! 6. [`mode`]: motions of the linear equations about a steady motion, in all coordinates; [`perturbed`]: motions that begin near it.
+//! 6. [`mode`]: motions of the linear equations about a steady motion, in all coordinates; [`witness`]: motions that begin near it.
 //!
 //! All here is numerical: nothing is proved, and values are located to rounding.
 
@@ -21,10 +21,10 @@ pub mod hopf;
 pub mod mode;
 pub mod multipliers;
 pub mod periodic;
-pub mod perturbed;
 pub mod sensitivity;
 mod subspace;
 pub mod variational;
+pub mod witness;
 
 pub use error::OrbitError;
 pub use flow::Flow;

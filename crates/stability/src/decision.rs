@@ -1,7 +1,6 @@
 //! One statement on a motion, decided at the values of the parameters that the model states, or for all values of the one parameter that occurs
 //! in the motion only.
 
-use crate::beside::RunsBeside;
 use crate::bundle::{bundles, Bundle};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Crossing, Ranges};
@@ -9,6 +8,7 @@ use crate::isolation::Root;
 use crate::problem::LinearizationError;
 use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
 use crate::real_roots::{decimal, real_roots};
+use crate::witness::RunsBeside;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::SteadyMotion;
 use chetaev_symbolic::number::ball::Precision;

@@ -40,13 +40,16 @@ pub fn near<'m>(
     };
     let nearest = set.found.iter().filter_map(|own| asked.member(&set, own));
     let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
-    match nearest {
-        Some((_, found)) => Ok(Cow::Owned(found)),
-        None => Err(not_found(match set.found.iter().any(|own| own.motion.is_none()) {
-            true => "those without a closed form were not compared, and no other has the values that are given".into(),
-            false => "none of the steady motions has the values that are given".into(),
-        })),
+    if let Some((_, found)) = nearest {
+        return Ok(Cow::Owned(found));
     }
+    let are_all_compared = set.found.iter().all(|own| own.motion.is_some());
+    Err(not_found(if are_all_compared {
+        "none of the steady motions has the values that are given".into()
+    } else {
+        "those without a closed form were not compared, and no other has the values that are given"
+            .into()
+    }))
 }
 
 /// Parameters in numbers: those that are put in, others as the model states them.

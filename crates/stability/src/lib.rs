@@ -13,12 +13,11 @@
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
 //!    [`real_roots`]; [`question`] puts it together.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
-//!    [`beside`]: runs beside it as a witness where nothing is decided.
+//!    [`witness`]: runs beside it as a witness where nothing is decided.
 //! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots;
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
-pub mod beside;
 mod branch;
 pub mod bundle;
 pub mod characteristic;
@@ -46,3 +45,4 @@ pub mod state_space;
 pub mod steady;
 pub mod steady_set;
 mod steady_value;
+pub mod witness;

@@ -41,8 +41,8 @@ use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
 };
-use chetaev_orbits::perturbed::perturbed_runs;
-use chetaev_stability::beside::RunsBeside;
+use chetaev_orbits::witness::perturbed_runs;
+use chetaev_stability::witness::RunsBeside;
 use chetaev_symbolic::meter::{within, Stopped, Work, UNITS_PER_SECOND};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
