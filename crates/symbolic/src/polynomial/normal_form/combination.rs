@@ -19,21 +19,14 @@ impl Field<'_> {
         target: &RationalFunction,
         basis: &[RationalFunction],
     ) -> Result<Option<Vec<Rational>>, Stop> {
-        let mut common = target.denominator().clone();
-        for b in basis {
-            common = common.lcm(b.denominator(), &self.meter)?;
-        }
-        let over = |f: &RationalFunction| -> Result<Polynomial, Stop> {
-            let cofactor = common.exact_quotient(f.denominator(), &self.meter)?;
-            let cofactor = cofactor.unwrap_or_else(Polynomial::one);
-            self.reduce(f.numerator().mul(&cofactor, &self.meter)?)
-        };
-        let mut rest: Row = rational_terms(&over(target)?);
+        let all: Vec<&RationalFunction> = std::iter::once(target).chain(basis).collect();
+        let numerators = self.numerators(&all)?;
+        let mut rest: Row = rational_terms(&numerators[0]);
         let mut rows: Vec<(Row, Vec<Rational>)> = Vec::new();
-        for (i, b) in basis.iter().enumerate() {
+        for (i, numerator) in numerators[1..].iter().enumerate() {
             let mut combination = vec![Rational::ZERO; basis.len()];
             combination[i] = Rational::ONE;
-            let mut row = rational_terms(&over(b)?);
+            let mut row = rational_terms(numerator);
             for (other, weights) in &rows {
                 eliminate(&mut row, &mut combination, other, weights);
             }
@@ -49,6 +42,27 @@ impl Field<'_> {
         Ok(rest
             .is_empty()
             .then(|| solution.into_iter().map(|r| -r).collect()))
+    }
+
+    /// The numerators over the least common denominator, modulo the relations between the generators: without that sin² and 1 − cos²
+    /// would be two vectors for one function.
+    fn numerators(&self, values: &[&RationalFunction]) -> Result<Vec<Polynomial>, Stop> {
+        let mut common = Polynomial::one();
+        for value in values {
+            common = common.lcm(value.denominator(), &self.meter)?;
+        }
+        let over = |value: &&RationalFunction| -> Result<Polynomial, Stop> {
+            let cofactor = common.exact_quotient(value.denominator(), &self.meter)?;
+            let cofactor = cofactor.unwrap_or_else(Polynomial::one);
+            self.reduce(value.numerator().mul(&cofactor, &self.meter)?)
+        };
+        values.iter().map(over).collect()
+    }
+
+    /// The numerators of forms over their least common denominator, in normal form; `None` where they are too large.
+    pub fn over_common_denominator(&self, values: &[RationalFunction]) -> Option<Vec<Polynomial>> {
+        let values: Vec<&RationalFunction> = values.iter().collect();
+        self.numerators(&values).ok()
     }
 }
 

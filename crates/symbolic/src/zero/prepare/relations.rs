@@ -1,9 +1,10 @@
-//! Rational relations between the monomials of arguments: y/(1 + x) and x y/(1 + x) have the sum y, so that of the
-//! exponentials of the three only two are generators.
+//! Rational relations between arguments: y/(1 + x) and x y/(1 + x) have the sum y, so that of the exponentials of the three only two
+//! are generators.
 //!
-//! The monomials are brought to normal form; over a common denominator a relation with rational coefficients is one
-//! between the vectors of coefficients of their numerators. What is found holds exactly; relations that are missed can
-//! only make a proof impossible.
+//! An argument is a combination of monomials in symbols, and of one *remainder*, which is what else there is. Multiplicative relations
+//! between exponentials are the linear relations between arguments over the rationals, so that remainders need not be taken apart. They
+//! are brought to normal form; over a common denominator a relation with rational coefficients is one between the vectors of
+//! coefficients of the numerators. What is found holds exactly; relations that are missed can only make a proof impossible.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,11 +14,11 @@ use super::super::expand::{linear_form, LinearForm};
 use super::Builder;
 use crate::node::{Expr, Function, Node};
 use crate::polynomial::normal_form::{normal_forms, Options};
-use crate::polynomial::{Budget, Meter, Monomial, Polynomial, RationalFunction};
+use crate::polynomial::{Budget, Monomial, Polynomial};
 use crate::rational::Rational;
 
-/// Relations are looked for among at most so many monomials,
-const MOST_MONOMIALS: usize = 24;
+/// Relations are looked for among at most so many monomials and remainders,
+const MOST_UNITS: usize = 24;
 /// with at most so many nodes in all.
 const MOST_NODES: usize = 500;
 /// A few milliseconds at most.
@@ -28,14 +29,20 @@ const BUDGET: Budget = Budget {
     work: 500_000,
 };
 
-/// Monomials that are combinations of others.
-pub(super) type Relations = FxHashMap<Expr, LinearForm>;
+/// Which monomials and remainders are combinations of others; nothing where it was not looked for.
+pub(super) type Relations = Option<FxHashMap<Expr, LinearForm>>;
+
+/// What remains of an argument without its monomials in symbols: coefficient·unit.
+struct Remainder {
+    unit: Expr,
+    coefficient: Rational,
+}
 
 impl Builder<'_> {
     /// Finds the relations among the arguments of angles and exponentials below the roots.
     pub(super) fn relate(&mut self, roots: &[Expr]) {
         let graph = self.graph;
-        let mut monomials: BTreeSet<Expr> = BTreeSet::new();
+        let (mut plain, mut units) = (BTreeSet::new(), BTreeSet::new());
         for e in graph.reachable(roots) {
             let Node::Apply {
                 function,
@@ -45,34 +52,35 @@ impl Builder<'_> {
                 continue;
             };
             if let (true, Some(&x)) = (takes_a_form(*function), arguments.first()) {
-                monomials.extend(linear_form(graph, x).terms.into_keys());
+                let (own, remainder) = self.parted(linear_form(graph, x));
+                plain.extend(own.terms.into_keys().filter(|&m| !self.has_own_rule(m)));
+                units.extend(remainder.map(|r| r.unit));
             }
         }
-        // Logarithms and inverse functions have rules of their own.
-        monomials.retain(|&m| !matches!(graph.node(m), Node::Apply { .. } | Node::Pi));
-        let (mut plain, rest): (Vec<Expr>, Vec<Expr>) =
-            monomials.into_iter().partition(|&m| self.is_polynomial(m));
-        if rest.is_empty() || plain.len() + rest.len() > MOST_MONOMIALS {
+        if units.is_empty() || plain.len() + units.len() > MOST_UNITS {
             return;
         }
-        // Plain ones first: the others are expressed by them where they can be.
-        plain.push(graph.one());
-        plain.extend(rest);
-        if graph.reachable(&plain).len() <= MOST_NODES {
-            self.relations = self.relations_among(&plain).unwrap_or_default();
+        // Monomials first: remainders are expressed by them where they can be.
+        let all: Vec<Expr> = plain
+            .into_iter()
+            .chain([graph.one()])
+            .chain(units)
+            .collect();
+        if graph.reachable(&all).len() <= MOST_NODES {
+            self.relations = self.relations_among(&all);
         }
     }
 
-    /// `e` as a combination of monomials between which no relation is known.
+    /// `e` as a combination of monomials and remainders between which no relation is known.
     pub(super) fn reduced_form(&self, e: Expr) -> LinearForm {
         let form = linear_form(self.graph, e);
-        let mut reduced = LinearForm {
-            constant: form.constant,
-            ..LinearForm::default()
+        let Some(relations) = &self.relations else {
+            return form;
         };
-        for (monomial, coefficient) in form.terms {
-            match self.relations.get(&monomial) {
-                None => reduced.add(monomial, coefficient),
+        let (mut reduced, remainder) = self.parted(form);
+        if let Some(Remainder { unit, coefficient }) = remainder {
+            match relations.get(&unit) {
+                None => reduced.add(unit, coefficient),
                 Some(combination) => {
                     reduced.constant += &combination.constant * &coefficient;
                     for (other, factor) in &combination.terms {
@@ -87,17 +95,45 @@ impl Builder<'_> {
         reduced
     }
 
+    /// The form without what is no monomial in symbols, and that, with one as its leading coefficient.
+    fn parted(&self, form: LinearForm) -> (LinearForm, Option<Remainder>) {
+        let (own, rest): (BTreeMap<_, _>, BTreeMap<_, _>) = form
+            .terms
+            .into_iter()
+            .partition(|&(m, _)| self.has_own_rule(m) || self.is_polynomial(m));
+        let own = LinearForm {
+            terms: own,
+            constant: form.constant,
+        };
+        let remainder = rest.first_key_value().map(|(_, leading)| {
+            let terms: Vec<Expr> = rest
+                .iter()
+                .map(|(&m, c)| self.graph.scale(&(c / leading), m))
+                .collect();
+            Remainder {
+                unit: self.graph.add(&terms),
+                coefficient: leading.clone(),
+            }
+        });
+        (own, remainder)
+    }
+
+    /// Logarithms, inverse functions and π have rules of their own.
+    fn has_own_rule(&self, monomial: Expr) -> bool {
+        matches!(self.graph.node(monomial), Node::Apply { .. } | Node::Pi)
+    }
+
     fn is_polynomial(&self, monomial: Expr) -> bool {
         self.graph.as_symbol(monomial).is_some() || self.is_monomial_in_symbols(monomial)
     }
 
     /// Elimination of the monomials in their order; `None` where the normal forms are too large.
-    fn relations_among(&self, monomials: &[Expr]) -> Option<Relations> {
+    fn relations_among(&self, monomials: &[Expr]) -> Relations {
         let options = Options::proof(BUDGET);
-        let (_, values) = normal_forms(self.graph, monomials, &options).ok()?;
-        let numerators = over_common_denominator(&values)?;
+        let (field, values) = normal_forms(self.graph, monomials, &options).ok()?;
+        let numerators = field.over_common_denominator(&values)?;
         let mut basis: Vec<Reduced> = Vec::new();
-        let mut relations = Relations::default();
+        let mut relations = FxHashMap::default();
         for (place, numerator) in numerators.iter().enumerate() {
             let mut next = Reduced {
                 vector: vector(numerator),
@@ -187,21 +223,5 @@ fn vector(polynomial: &Polynomial) -> BTreeMap<Monomial, Rational> {
     let terms = polynomial.terms().iter();
     terms
         .map(|(monomial, c)| (monomial.clone(), Rational::from(c.clone())))
-        .collect()
-}
-
-/// The numerators over the least common denominator; `None` where they are too large.
-fn over_common_denominator(values: &[RationalFunction]) -> Option<Vec<Polynomial>> {
-    let meter = Meter::new(BUDGET);
-    let mut common = Polynomial::one();
-    for value in values {
-        common = common.lcm(value.denominator(), &meter).ok()?;
-    }
-    values
-        .iter()
-        .map(|value| {
-            let cofactor = common.exact_quotient(value.denominator(), &meter).ok()??;
-            value.numerator().mul(&cofactor, &meter).ok()
-        })
         .collect()
 }

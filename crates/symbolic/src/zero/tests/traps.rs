@@ -1,6 +1,7 @@
 //! Every trap of T6 §6.7.
 
 use super::super::assumptions::{Assumptions, Relation};
+use super::super::Options;
 use super::*;
 use crate::rational;
 use crate::Rational;
@@ -64,6 +65,38 @@ fn arguments_related_by_rational_functions() {
     );
     refuted(&g, "exp(y/(1 + x)) * exp(x*y/(1 + x)) - exp(2*y)");
     refuted(&g, "exp(y/(1 + x)) - exp(x*y/(1 + x))");
+}
+
+/// Numerators are compared modulo sin² + cos² = 1 after they are brought to one denominator, and an argument of many terms is one
+/// unknown of the relations; by the modular proof alone, as in a large question.
+#[test]
+fn arguments_related_by_angles_and_of_many_terms() {
+    let g = Graph::new();
+    let d = "((16*sin(x + z) - 3)^2 + 36*(3 + sin(z))^2)";
+    let squares = |shift: u32| {
+        format!("y*sin(z)*(16*sin(x + z) - 3)^2/((3 + sin(z))*{d}) + 3*y*(16*sin(x + z) - 3)^2/((3 + sin(z))*{d}) + 36*y*({shift} + sin(z))^2/{d}")
+    };
+    let many = |last: u32| {
+        format!("(x^2 + y + sin(z))^3*(y + z + 2)^2/(1 + x*cos(z)) + {last}*x*cos(z)*(x^2 + y + sin(z))^3*(y + z + 2)^2/(1 + x*cos(z)) - (x^2 + y + sin(z))^3*(y + z + 2)^2")
+    };
+    let word = |text: &str| {
+        let assumptions = Assumptions::new();
+        let residuals = [parse(&g, text)];
+        let test = ZeroTest {
+            options: Options {
+                exact: false,
+                ..Options::default()
+            },
+            ..ZeroTest::everywhere(&residuals, &assumptions)
+        };
+        decide_zero(&g, &test).word()
+    };
+    for (argument, sum) in [(squares(3), "y"), (many(1), "0")] {
+        assert_eq!(word(&format!("cosh({argument}) - cosh({sum})")), "proved");
+    }
+    for (argument, sum) in [(squares(2), "y"), (many(2), "0")] {
+        assert_eq!(word(&format!("cosh({argument}) - cosh({sum})")), "refuted");
+    }
 }
 
 #[test]
