@@ -1,7 +1,8 @@
 //! Evaluation at the state of a counterexample with as many digits as it takes: where cosh(40) stands beside 1, double
 //! precision keeps no digit of a difference, and the twelve digits printed of a dependent velocity are not enough.
 
-use super::Subject;
+use super::{Sampled, Subject};
+use chetaev_mechanics::sample::Point;
 use chetaev_symbolic::number::ball::{self, Ball, Precision};
 use chetaev_symbolic::verdict::PointValue;
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -82,12 +83,8 @@ impl State<'_> {
         let jacobian = g.jacobian(&f, &symbols).concat();
         for _ in 0..STEPS {
             let value = |s: Symbol| Some(self.value(g, &point, s));
-            let at = g.enclose(&f, precision, &value).ok()?;
-            let matrix = g.enclose(&jacobian, precision, &value).ok()?;
-            let middle = |balls: Vec<Ball>| balls.iter().map(Ball::midpoint).collect::<Vec<_>>();
-            let (matrix, right) = (middle(matrix), middle(at));
-            let step = ball::solve(precision, f.len(), matrix, &[right]).ok()?;
-            for (&symbol, step) in symbols.iter().zip(&step[0]) {
+            let step = newton_step(g, precision, (&f, &jacobian), &value)?;
+            for (&symbol, step) in symbols.iter().zip(&step) {
                 let old = self.value(g, &point, symbol);
                 let size = old.log2_ceil().unwrap_or(0).max(-PRINTED);
                 if step.log2_ceil().is_some_and(|s| s > size - PRINTED) {
@@ -99,6 +96,64 @@ impl State<'_> {
         }
         Some(point)
     }
+}
+
+/// J⁻¹ f, by which Newton's iteration lessens the unknowns of f = 0.
+fn newton_step(
+    g: &Graph,
+    precision: &Precision,
+    (f, jacobian): (&[Expr], &[Expr]),
+    value: &dyn Fn(Symbol) -> Option<Ball>,
+) -> Option<Vec<Ball>> {
+    let middle = |balls: Vec<Ball>| balls.iter().map(Ball::midpoint).collect::<Vec<_>>();
+    let right = middle(g.enclose(f, precision, value).ok()?);
+    let matrix = middle(g.enclose(jacobian, precision, value).ok()?);
+    ball::solve(precision, f.len(), matrix, &[right])
+        .ok()?
+        .pop()
+}
+
+/// The largest share of |left − right| in 1 + |left| + |right| at a state whose dependent velocities are brought onto the constraints,
+/// with digits enough that rounding is none; `None` where it cannot be evaluated.
+pub(super) fn share_of_difference(
+    subject: &Sampled<'_>,
+    left: &[Expr],
+    right: &[Expr],
+    state: &Point,
+) -> Option<f64> {
+    let (cx, precision) = (subject.cx, Precision::new(BITS[0]));
+    let g = &cx.system.graph;
+    let rows = subject.natural.rows.iter();
+    let f: Vec<Expr> = rows.map(|&row| cx.terms.constraints[row]).collect();
+    let dependent = subject.natural.dependent.iter();
+    let unknowns: Vec<Symbol> = dependent
+        .map(|&d| cx.system.coordinates[d].v_symbol)
+        .collect();
+    let jacobian = g.jacobian(&f, &unknowns).concat();
+    let mut found: BTreeMap<Symbol, Ball> = BTreeMap::new();
+    for (&symbol, &value) in state {
+        found.insert(symbol, Ball::from_f64(value)?);
+    }
+    let steps = if f.is_empty() { 0 } else { STEPS };
+    for _ in 0..steps {
+        let value = |s: Symbol| found.get(&s).cloned();
+        let step = newton_step(g, &precision, (&f, &jacobian), &value)?;
+        for (symbol, step) in unknowns.iter().zip(&step) {
+            let new = precision.sub(found.get(symbol)?, step).ok()?.midpoint();
+            found.insert(*symbol, new);
+        }
+    }
+    let all: Vec<Expr> = left.iter().chain(right).copied().collect();
+    let values = g
+        .enclose(&all, &precision, &|s| found.get(&s).cloned())
+        .ok()?;
+    let (left, right) = values.split_at(left.len());
+    let mut largest = 0.0_f64;
+    for (a, b) in left.iter().zip(right) {
+        let difference = precision.sub(a, b).ok()?.to_f64().abs();
+        largest = largest.max(difference / (1.0 + a.to_f64().abs() + b.to_f64().abs()));
+    }
+    Some(largest)
 }
 
 /// The absolute value of a decimal number as mantissa below ten and exponent, as it may lie beyond double precision.

@@ -29,9 +29,7 @@ pub(super) fn without_brackets(subject: &Subject<'_>) -> Option<Trial> {
         ),
     };
     let verdict = match seen {
-        Size::Unclear => {
-            Verdict::undecided("double precision cannot tell the terms with Γ from zero")
-        }
+        Size::Unclear => Verdict::undecided("numbers cannot tell the terms with Γ from zero"),
         _ => subject.compared(&wrong),
     };
     Some(Trial {

@@ -1,5 +1,6 @@
 //! Values in double precision at sampled states: they decide, independently of every zero test, what a law expects.
 
+use super::digits::share_of_difference;
 use super::Sampled;
 use chetaev_mechanics::sample::{admissible_point, Generator, Point};
 use chetaev_mechanics::Context;
@@ -11,6 +12,8 @@ const STATES: u64 = 6;
 const CLEARLY: f64 = 1e-6;
 /// Below this share of its scale a value is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Beyond this share a value is not zero where rounding is none; below its square it is zero.
+const PRECISELY: f64 = 1e-20;
 /// A row of a matrix below it is zero: the coefficients of random systems are of the size of one.
 const NOTHING: f64 = 1e-11;
 
@@ -26,6 +29,15 @@ pub(super) enum Size {
 }
 
 impl Size {
+    /// From the shares of differences that were evaluated with some 150 digits.
+    fn of_shares(shares: &[f64]) -> Size {
+        match shares.iter().copied().reduce(f64::max) {
+            Some(share) if share > PRECISELY => Size::NotZero,
+            Some(share) if share < PRECISELY * PRECISELY => Size::Zero,
+            _ => Size::Unclear,
+        }
+    }
+
     /// From values with their scales.
     pub(super) fn of(values: impl IntoIterator<Item = (f64, f64)>) -> Size {
         let mut largest: Option<f64> = None;
@@ -165,8 +177,21 @@ const BEYOND: f64 = 1e9;
 
 /// Whether `left` and `right` differ at admissible states, relatively to their size.
 pub(super) fn differ(subject: &Sampled<'_>, left: &[Expr], right: &[Expr]) -> Size {
+    let seen = differ_at(subject, left, right, &subject.states);
+    if seen != Size::Unclear {
+        return seen;
+    }
+    // Terms that cancel to many digits: more digits tell.
+    let states = subject.states.iter();
+    let shares: Vec<f64> = states
+        .filter_map(|state| share_of_difference(subject, left, right, state))
+        .collect();
+    Size::of_shares(&shares)
+}
+
+fn differ_at(subject: &Sampled<'_>, left: &[Expr], right: &[Expr], states: &[Point]) -> Size {
     let all: Vec<Expr> = left.iter().chain(right).copied().collect();
-    let values = values(subject, &all, &subject.states);
+    let values = values(subject, &all, states);
     Size::of(values.iter().flat_map(|values| {
         let (a, b) = values.split_at(left.len());
         let compared = a.iter().zip(b);

@@ -107,9 +107,7 @@ fn trial(
         _ => Expected::Refuted,
     };
     let verdict = match (term, subject.motion_of(&subject.natural, equations)) {
-        (Size::Unclear, _) => {
-            Verdict::undecided("double precision cannot tell what is missing from zero")
-        }
+        (Size::Unclear, _) => Verdict::undecided("numbers cannot tell what is missing from zero"),
         (_, None) => Verdict::undecided("the wrong equations do not determine the accelerations"),
         (_, Some(wrong)) => subject.compared(&wrong),
     };
