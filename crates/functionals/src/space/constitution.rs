@@ -1,54 +1,11 @@
-//! Jets of fields over space: components, their derivatives as symbols, total derivatives, and constitutive functions.
+//! Constitutive functions of a space: declared, stated by a value or a gradient, differentiated, applied, and undone by their conjugates.
 //!
-//! A component and each of its derivatives is a symbol of the graph. A constitutive function applied to arguments is a symbol
-//! too, which is differentiated by the chain rule through its own derivatives; a function and its Legendre conjugate undo each
-//! other wherever one is applied to the gradient of the other. Both are exact, so that what is proved holds for every energy.
+//! A function applied to arguments is a symbol of the graph with derivatives of its own. Applications are known by function, slots
+//! of differentiation and arguments, so that one symbol never means two things.
 
-use chetaev_symbolic::zero::assumptions::{Assumption, Assumptions, Relation, SignSet};
-use chetaev_symbolic::zero::{decide_zero, known_sign, Options, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
-use std::cell::RefCell;
+use super::{pairs, Space};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A derivative: the independent variables by which is differentiated, ascending, each as often as it is.
-pub type Multi = Vec<usize>;
-
-/// An independent variable.
-#[derive(Clone, Debug)]
-pub struct Coordinate {
-    /// Its name.
-    pub name: String,
-    /// What stands for it behind a comma.
-    pub suffix: String,
-    /// Its symbol.
-    pub expr: Expr,
-    /// Whether it is the time.
-    pub is_time: bool,
-}
-
-/// A component of a tensor that depends on place.
-#[derive(Clone, Debug)]
-pub struct Component {
-    /// Its name, `s_12`.
-    pub name: String,
-    /// Which tensor it belongs to.
-    pub tensor: String,
-    /// How often it occurs in the tensor: twice off the diagonal of a symmetric one.
-    pub multiplicity: i64,
-    /// Whether it is varied in the interior; data are not varied, and fields of the boundary are varied there only.
-    pub is_varied: bool,
-    /// Whether it lives on a piece of the boundary only, so that it may be continued off it at will.
-    pub is_of_boundary: bool,
-}
-
-/// A component differentiated.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Jet {
-    /// Which component.
-    pub component: usize,
-    /// By what it is differentiated.
-    pub by: Multi,
-}
 
 /// What a constitutive function is.
 #[derive(Clone, Debug)]
@@ -65,164 +22,21 @@ pub struct Function {
 
 /// A constitutive function, differentiated and applied.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Application {
-    function: usize,
+pub(super) struct Application {
+    pub(super) function: usize,
     /// Slots by which is differentiated, ascending.
-    by: Vec<usize>,
-    arguments: Vec<Expr>,
+    pub(super) by: Vec<usize>,
+    pub(super) arguments: Vec<Expr>,
 }
 
 /// Expressions in place-holders for the argument of a function.
 #[derive(Clone, Debug)]
-struct Rule {
+pub(super) struct Rule {
     slots: Vec<Expr>,
     values: Vec<Expr>,
 }
 
-/// All symbols of a functional with their calculus.
-pub struct Space {
-    /// The expressions.
-    pub graph: Graph,
-    /// Independent variables, those of space first.
-    pub coordinates: Vec<Coordinate>,
-    components: RefCell<Vec<Component>>,
-    functions: RefCell<Vec<Function>>,
-    gradients: RefCell<BTreeMap<usize, Rule>>,
-    bodies: RefCell<BTreeMap<usize, Rule>>,
-    jets: RefCell<BTreeMap<Symbol, Jet>>,
-    applications: RefCell<BTreeMap<Symbol, Application>>,
-    known: RefCell<BTreeMap<Application, Expr>>,
-    /// Whether pairs of functions are conjugates by their formulas; nothing where one has none.
-    conjugations: RefCell<BTreeMap<(usize, usize), Option<Verdict>>>,
-    /// The normal, and the distance from the boundary, inwards negative.
-    normal: Vec<Symbol>,
-    distance: Symbol,
-    /// What is assumed of fields, data and parameters.
-    assumptions: RefCell<Assumptions>,
-    /// Names of arguments, for reading.
-    arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
-    display: RefCell<BTreeMap<String, String>>,
-}
-
-impl std::fmt::Debug for Space {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Space")
-            .field("components", &self.components)
-            .finish_non_exhaustive()
-    }
-}
-
 impl Space {
-    /// A space with these independent variables: name, what stands behind a comma, and whether it is the time.
-    pub fn new(variables: &[(String, String, bool)]) -> Space {
-        let graph = Graph::new();
-        let coordinates = variables
-            .iter()
-            .map(|(name, suffix, is_time)| Coordinate {
-                name: name.clone(),
-                suffix: suffix.clone(),
-                expr: graph.symbol(name, 0),
-                is_time: *is_time,
-            })
-            .collect();
-        let d = variables.iter().filter(|(_, _, is_time)| !is_time).count();
-        let normal = (1..=d)
-            .map(|i| graph.intern_symbol(&format!("n_{i}"), 0))
-            .collect();
-        let distance = graph.intern_symbol("distance from the boundary", 0);
-        Space {
-            graph,
-            coordinates,
-            normal,
-            distance,
-            components: RefCell::default(),
-            functions: RefCell::default(),
-            gradients: RefCell::default(),
-            bodies: RefCell::default(),
-            jets: RefCell::default(),
-            applications: RefCell::default(),
-            known: RefCell::default(),
-            conjugations: RefCell::default(),
-            assumptions: RefCell::default(),
-            arguments: RefCell::default(),
-            display: RefCell::default(),
-        }
-    }
-
-    /// The number of dimensions of space.
-    pub fn dimensions(&self) -> usize {
-        self.coordinates.iter().filter(|c| !c.is_time).count()
-    }
-
-    pub(crate) fn normals(&self) -> &[Symbol] {
-        &self.normal
-    }
-
-    pub(crate) fn distance(&self) -> Symbol {
-        self.distance
-    }
-
-    /// Adds a component; the one of the same name where there is one.
-    pub fn component(&self, component: Component) -> usize {
-        let mut all = self.components.borrow_mut();
-        if let Some(at) = all.iter().position(|own| own.name == component.name) {
-            return at;
-        }
-        all.push(component);
-        all.len() - 1
-    }
-
-    /// A component.
-    pub fn component_at(&self, at: usize) -> Component {
-        self.components.borrow()[at].clone()
-    }
-
-    /// The component of a name.
-    pub fn component_named(&self, name: &str) -> Option<usize> {
-        self.components
-            .borrow()
-            .iter()
-            .position(|own| own.name == name)
-    }
-
-    /// The symbol of a jet.
-    pub fn jet(&self, component: usize, by: &[usize]) -> Expr {
-        let mut by = by.to_vec();
-        by.sort_unstable();
-        let name = self.components.borrow()[component].name.clone();
-        let suffix: String = by
-            .iter()
-            .map(|&i| self.coordinates[i].suffix.as_str())
-            .collect();
-        let full = if by.is_empty() {
-            name.clone()
-        } else {
-            format!("{name},{suffix}")
-        };
-        let symbol = self.graph.intern_symbol(&full, 0);
-        self.jets
-            .borrow_mut()
-            .entry(symbol)
-            .or_insert(Jet { component, by });
-        if !suffix.is_empty() {
-            let (head, indices) = name.rsplit_once('_').unwrap_or((&name, ""));
-            let lower = format!("{indices},{suffix}");
-            let shown = chetaev_symbolic::print::with_indices(head, &[], &[&lower]);
-            self.display.borrow_mut().insert(full, shown);
-        }
-        self.graph.symbol_expr(symbol)
-    }
-
-    /// How names of jets are typeset.
-    pub fn display(&self) -> BTreeMap<String, String> {
-        self.display.borrow().clone()
-    }
-
-    /// The jet that a symbol is.
-    pub fn as_jet(&self, symbol: Symbol) -> Option<Jet> {
-        self.jets.borrow().get(&symbol).cloned()
-    }
-
     /// Declares a constitutive function; the one of the same name where there is one.
     pub fn function(&self, function: Function) -> usize {
         let mut all = self.functions.borrow_mut();
@@ -322,46 +136,6 @@ impl Space {
             .borrow()
             .iter()
             .position(|own| own.name == name)
-    }
-
-    /// An expression where an independent variable has a value.
-    pub fn at(&self, e: Expr, axis: usize, value: Expr) -> Expr {
-        let own = self
-            .coordinates
-            .get(axis)
-            .and_then(|c| self.graph.as_symbol(c.expr));
-        self.replace(e, &|symbol| (Some(symbol) == own).then_some(value))
-    }
-
-    /// Assumes a comparison of fields, data and parameters.
-    pub fn assume(&self, own: Assumption) {
-        let mut all = self.assumptions.borrow_mut();
-        if !all.list().contains(&own) {
-            all.assume(own.left, own.relation, own.right);
-        }
-    }
-
-    /// What is assumed.
-    pub fn assumptions(&self) -> Assumptions {
-        self.assumptions.borrow().clone()
-    }
-
-    /// The signs that an expression can have where what is assumed holds, as far as its structure tells.
-    pub fn sign(&self, e: Expr) -> SignSet {
-        if self.is_slope_of_undone(e) {
-            return SignSet::POSITIVE.or(SignSet::NEGATIVE);
-        }
-        known_sign(&self.graph, e, &self.assumptions.borrow())
-    }
-
-    /// Whether an expression is the second derivative of a function of one argument whose conjugate undoes its gradient: of
-    /// `B'(A'(x)) = x` follows `B''(A'(x)) A''(x) = 1`.
-    fn is_slope_of_undone(&self, e: Expr) -> bool {
-        let symbol = self.graph.as_symbol(e);
-        let own = symbol.and_then(|s| self.applications.borrow().get(&s).cloned());
-        own.is_some_and(|own| {
-            own.by.len() == 2 && own.arguments.len() == 1 && self.undoing(own.function).is_some()
-        })
     }
 
     /// Gives arguments a name for reading.
@@ -571,183 +345,6 @@ impl Space {
         found
     }
 
-    /// Whether an expression vanishes at random points of prime fields, so that a proof of it is worth its time.
-    pub(crate) fn seems_to_vanish(&self, e: Expr) -> bool {
-        let (residuals, assumptions) = ([e], Assumptions::new());
-        let test = ZeroTest {
-            options: Options {
-                refute: false,
-                exact: false,
-                ..Options::default()
-            },
-            ..ZeroTest::everywhere(&residuals, &assumptions)
-        };
-        matches!(decide_zero(&self.graph, &test), Verdict::Proved(_))
-    }
-
-    /// Whether all expressions are proved to vanish identically in the symbols that occur.
-    pub fn vanish(&self, residuals: &[Expr]) -> bool {
-        matches!(self.vanishing(residuals, false), Verdict::Proved(_))
-    }
-
-    /// Whether all expressions vanish identically, with the evidence. The normal n is a unit vector.
-    pub fn vanishing(&self, residuals: &[Expr], refute: bool) -> Verdict {
-        self.vanishing_where(residuals, refute, &[])
-    }
-
-    /// The same where other expressions are not negative.
-    pub fn vanishing_where(&self, residuals: &[Expr], refute: bool, known: &[Expr]) -> Verdict {
-        let mut assumptions = self.assumptions();
-        for &e in known {
-            assumptions.assume(e, Relation::GreaterOrEqual, self.graph.zero());
-        }
-        self.vanishing_under(residuals, refute, &assumptions)
-    }
-
-    /// The same under these assumptions alone.
-    pub fn vanishing_under(
-        &self,
-        residuals: &[Expr],
-        refute: bool,
-        assumed: &Assumptions,
-    ) -> Verdict {
-        let mut assumptions = Assumptions::new();
-        for own in assumed.list() {
-            let (left, right) = (self.on_sphere(own.left), self.on_sphere(own.right));
-            assumptions.assume(left, own.relation, right);
-        }
-        let test = |residuals: &[Expr], refute: bool| {
-            let test = ZeroTest {
-                options: Options {
-                    refute,
-                    ..Options::default()
-                },
-                ..ZeroTest::everywhere(residuals, &assumptions)
-            };
-            decide_zero(&self.graph, &test)
-        };
-        let on_sphere: Vec<Expr> = residuals.iter().map(|&e| self.on_sphere(e)).collect();
-        if on_sphere == residuals {
-            return test(residuals, refute);
-        }
-        match test(residuals, false) {
-            Verdict::Proved(proof) => Verdict::Proved(proof),
-            _ => test(&on_sphere, refute),
-        }
-    }
-
-    /// The normal as a point of the unit sphere, by stereographic projection; in one dimension it is forward.
-    pub(crate) fn on_sphere(&self, e: Expr) -> Expr {
-        let g = &self.graph;
-        let d = self.dimensions();
-        let normals = &self.normal;
-        let occurring = self.symbols_in(&[e]);
-        if normals.iter().all(|n| !occurring.contains(n)) {
-            return e;
-        }
-        let at: Vec<Expr> = (2..=d)
-            .map(|i| g.symbol(&format!("normal_{i}"), 0))
-            .collect();
-        let square: Vec<Expr> = at.iter().map(|&a| g.powi(a, 2)).collect();
-        let square = g.add(&square);
-        let below = g.powi(g.add(&[g.one(), square]), -1);
-        self.replace(e, &|symbol| {
-            let place = normals.iter().position(|&n| n == symbol)?;
-            Some(match place {
-                0 => g.mul(&[g.sub(g.one(), square), below]),
-                i => g.mul(&[g.integer(2), at[i - 1], below]),
-            })
-        })
-    }
-
-    /// `Σ value(symbol) ∂e/∂symbol`, through the arguments of constitutive functions.
-    pub fn derive(&self, e: Expr, value: &dyn Fn(Symbol) -> Option<Expr>) -> Expr {
-        let g = &self.graph;
-        let full = |symbol: Symbol| -> Option<Expr> {
-            let application = self.applications.borrow().get(&symbol).cloned();
-            let Some(application) = application else {
-                return value(symbol);
-            };
-            let multiplicities = self.function_at(application.function).multiplicities;
-            let mut terms = Vec::new();
-            for (slot, &argument) in application.arguments.iter().enumerate() {
-                let rate = self.derive(argument, value);
-                if g.is_zero(rate) {
-                    continue;
-                }
-                let mut by = application.by.clone();
-                by.push(slot);
-                let slope = self.apply(application.function, &by, &application.arguments);
-                terms.push(g.mul(&[g.integer(multiplicities[slot]), slope, rate]));
-            }
-            (!terms.is_empty()).then(|| g.add(&terms))
-        };
-        g.derive(&[e], &full).swap_remove(0)
-    }
-
-    /// The partial derivative by a jet.
-    pub fn partial(&self, e: Expr, jet: &Jet) -> Expr {
-        let wanted = self.jet(jet.component, &jet.by);
-        let symbol = self.graph.as_symbol(wanted);
-        let one = self.graph.one();
-        self.derive(e, &|s| (Some(s) == symbol).then_some(one))
-    }
-
-    /// The total derivative by an independent variable; the normal is that of a piece and of the surfaces parallel to it.
-    pub fn total(&self, e: Expr, axis: usize) -> Expr {
-        let coordinate = self.graph.as_symbol(self.coordinates[axis].expr);
-        let one = self.graph.one();
-        self.derive(e, &|symbol| {
-            if Some(symbol) == coordinate {
-                return Some(one);
-            }
-            if symbol == self.distance {
-                return self.normal().get(axis).copied();
-            }
-            if let Some(at) = self.normal.iter().position(|&n| n == symbol) {
-                return self.curvature_at(at, axis);
-            }
-            let jet = self.as_jet(symbol)?;
-            let mut by = jet.by;
-            by.push(axis);
-            Some(self.jet(jet.component, &by))
-        })
-    }
-
-    /// Several total derivatives.
-    pub fn totals(&self, e: Expr, by: &[usize]) -> Expr {
-        by.iter().fold(e, |e, &axis| self.total(e, axis))
-    }
-
-    /// Replaces symbols, those in arguments of constitutive functions too.
-    pub fn replace(&self, e: Expr, value: &dyn Fn(Symbol) -> Option<Expr>) -> Expr {
-        let g = &self.graph;
-        let mut pairs = Vec::new();
-        for symbol in g.symbols_in(&[e]) {
-            let application = self.applications.borrow().get(&symbol).cloned();
-            let new = match application {
-                Some(own) => {
-                    let arguments: Vec<Expr> = own
-                        .arguments
-                        .iter()
-                        .map(|&a| self.replace(a, value))
-                        .collect();
-                    (arguments != own.arguments)
-                        .then(|| self.apply(own.function, &own.by, &arguments))
-                }
-                None => value(symbol),
-            };
-            if let Some(new) = new {
-                pairs.push((g.symbol_expr(symbol), new));
-            }
-        }
-        if pairs.is_empty() {
-            e
-        } else {
-            g.substitute(e, &pairs)
-        }
-    }
-
     /// Replaces a constitutive function by another rule for its values; derivatives follow from the rule.
     pub fn replace_function(
         &self,
@@ -827,30 +424,6 @@ impl Space {
         })
     }
 
-    /// All jets that occur, in arguments of constitutive functions too.
-    pub fn jets_in(&self, es: &[Expr]) -> BTreeSet<Jet> {
-        let mut found = BTreeSet::new();
-        for symbol in self.symbols_in(es) {
-            found.extend(self.as_jet(symbol));
-        }
-        found
-    }
-
-    /// All symbols that occur, in arguments too, without those of functions.
-    pub fn symbols_in(&self, es: &[Expr]) -> BTreeSet<Symbol> {
-        let mut found = BTreeSet::new();
-        for symbol in self.graph.symbols_in(es) {
-            let application = self.applications.borrow().get(&symbol).cloned();
-            match application {
-                Some(own) => found.extend(self.symbols_in(&own.arguments)),
-                None => {
-                    found.insert(symbol);
-                }
-            }
-        }
-        found
-    }
-
     /// The first derivatives of functions that a conjugate undoes and that occur: function and arguments.
     pub(crate) fn gradients_in(&self, es: &[Expr]) -> Vec<(usize, Vec<Expr>)> {
         let mut found: Vec<(usize, Vec<Expr>)> = Vec::new();
@@ -900,15 +473,4 @@ fn unused(names: &BTreeMap<Vec<Expr>, String>, name: &str) -> String {
         count += 1;
     }
     format!("{name} of {count}")
-}
-
-/// The independent components of a symmetric tensor: 11, 12, …, 22, ….
-pub fn pairs(dimensions: usize) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    for i in 0..dimensions {
-        for j in i..dimensions {
-            found.push((i, j));
-        }
-    }
-    found
 }

@@ -1,0 +1,128 @@
+//! What is zero, and of which sign, in a space: under its assumptions, modulo what is known to vanish, on the unit sphere of normals.
+
+use super::Space;
+use chetaev_symbolic::zero::assumptions::{Assumption, Assumptions, Relation, SignSet};
+use chetaev_symbolic::zero::{decide_zero, known_sign, Options, ZeroTest};
+use chetaev_symbolic::{Expr, Verdict};
+
+impl Space {
+    /// Assumes a comparison of fields, data and parameters.
+    pub fn assume(&self, own: Assumption) {
+        let mut all = self.assumptions.borrow_mut();
+        if !all.list().contains(&own) {
+            all.assume(own.left, own.relation, own.right);
+        }
+    }
+
+    /// What is assumed.
+    pub fn assumptions(&self) -> Assumptions {
+        self.assumptions.borrow().clone()
+    }
+
+    /// The signs that an expression can have where what is assumed holds, as far as its structure tells.
+    pub fn sign(&self, e: Expr) -> SignSet {
+        if self.is_slope_of_undone(e) {
+            return SignSet::POSITIVE.or(SignSet::NEGATIVE);
+        }
+        known_sign(&self.graph, e, &self.assumptions.borrow())
+    }
+
+    /// Whether an expression is the second derivative of a function of one argument whose conjugate undoes its gradient: of
+    /// `B'(A'(x)) = x` follows `B''(A'(x)) A''(x) = 1`.
+    fn is_slope_of_undone(&self, e: Expr) -> bool {
+        let symbol = self.graph.as_symbol(e);
+        let own = symbol.and_then(|s| self.applications.borrow().get(&s).cloned());
+        own.is_some_and(|own| {
+            own.by.len() == 2 && own.arguments.len() == 1 && self.undoing(own.function).is_some()
+        })
+    }
+
+    /// Whether an expression vanishes at random points of prime fields, so that a proof of it is worth its time.
+    pub(crate) fn seems_to_vanish(&self, e: Expr) -> bool {
+        let (residuals, assumptions) = ([e], Assumptions::new());
+        let test = ZeroTest {
+            options: Options {
+                refute: false,
+                exact: false,
+                ..Options::default()
+            },
+            ..ZeroTest::everywhere(&residuals, &assumptions)
+        };
+        matches!(decide_zero(&self.graph, &test), Verdict::Proved(_))
+    }
+
+    /// Whether all expressions are proved to vanish identically in the symbols that occur.
+    pub fn vanish(&self, residuals: &[Expr]) -> bool {
+        matches!(self.vanishing(residuals, false), Verdict::Proved(_))
+    }
+
+    /// Whether all expressions vanish identically, with the evidence. The normal n is a unit vector.
+    pub fn vanishing(&self, residuals: &[Expr], refute: bool) -> Verdict {
+        self.vanishing_where(residuals, refute, &[])
+    }
+
+    /// The same where other expressions are not negative.
+    pub fn vanishing_where(&self, residuals: &[Expr], refute: bool, known: &[Expr]) -> Verdict {
+        let mut assumptions = self.assumptions();
+        for &e in known {
+            assumptions.assume(e, Relation::GreaterOrEqual, self.graph.zero());
+        }
+        self.vanishing_under(residuals, refute, &assumptions)
+    }
+
+    /// The same under these assumptions alone.
+    pub fn vanishing_under(
+        &self,
+        residuals: &[Expr],
+        refute: bool,
+        assumed: &Assumptions,
+    ) -> Verdict {
+        let mut assumptions = Assumptions::new();
+        for own in assumed.list() {
+            let (left, right) = (self.on_sphere(own.left), self.on_sphere(own.right));
+            assumptions.assume(left, own.relation, right);
+        }
+        let test = |residuals: &[Expr], refute: bool| {
+            let test = ZeroTest {
+                options: Options {
+                    refute,
+                    ..Options::default()
+                },
+                ..ZeroTest::everywhere(residuals, &assumptions)
+            };
+            decide_zero(&self.graph, &test)
+        };
+        let on_sphere: Vec<Expr> = residuals.iter().map(|&e| self.on_sphere(e)).collect();
+        if on_sphere == residuals {
+            return test(residuals, refute);
+        }
+        match test(residuals, false) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            _ => test(&on_sphere, refute),
+        }
+    }
+
+    /// The normal as a point of the unit sphere, by stereographic projection; in one dimension it is forward.
+    pub(crate) fn on_sphere(&self, e: Expr) -> Expr {
+        let g = &self.graph;
+        let d = self.dimensions();
+        let normals = &self.normal;
+        let occurring = self.symbols_in(&[e]);
+        if normals.iter().all(|n| !occurring.contains(n)) {
+            return e;
+        }
+        let at: Vec<Expr> = (2..=d)
+            .map(|i| g.symbol(&format!("normal_{i}"), 0))
+            .collect();
+        let square: Vec<Expr> = at.iter().map(|&a| g.powi(a, 2)).collect();
+        let square = g.add(&square);
+        let below = g.powi(g.add(&[g.one(), square]), -1);
+        self.replace(e, &|symbol| {
+            let place = normals.iter().position(|&n| n == symbol)?;
+            Some(match place {
+                0 => g.mul(&[g.sub(g.one(), square), below]),
+                i => g.mul(&[g.integer(2), at[i - 1], below]),
+            })
+        })
+    }
+}
