@@ -44,7 +44,7 @@ impl<'s> Solved<'s> {
         let space = self.space;
         let g = &space.graph;
         let e = self.placed(space.explicit(e));
-        if space.sign(e).is_nonzero() {
+        if space.sign(e).is_nonzero() || self.has_no_zero_factor(e) {
             return true;
         }
         let is_place = |symbol| {
@@ -56,6 +56,18 @@ impl<'s> Solved<'s> {
         let is_curved = self.place == Some(Side::Curved);
         let is_of_place = g.symbols_in(&[e]).into_iter().all(is_place);
         !is_curved && is_of_place && matches!(space.vanishing(&[e], true), Verdict::Refuted(_))
+    }
+
+    /// Whether no factor of an expression over its common denominator vanishes: √(1 + p²) − p²/√(1 + p²) has the sign of one.
+    fn has_no_zero_factor(&self, e: Expr) -> bool {
+        let g = &self.space.graph;
+        let is_sum = matches!(g.node(e), Node::Sum { .. });
+        let factored = is_sum.then(|| chetaev_symbolic::factors::factored(g, e));
+        factored.flatten().is_some_and(|own| {
+            let mut factors = own.factors.iter();
+            let is_nonzero = |(factor, _): &(Expr, i64)| self.space.sign(*factor).is_nonzero();
+            !own.coefficient.is_zero() && factors.all(is_nonzero)
+        })
     }
 
     /// On a face the variable across it has its value.

@@ -139,6 +139,9 @@ impl Reach {
 /// At so many points a factor between two equations is looked for.
 const MOST_POINTS: usize = 4;
 
+/// An equation that is left is printed up to so many signs.
+const LONGEST_NAMED: usize = 60;
+
 /// Most rounds; each solves one group or changes its form.
 const MOST_ROUNDS: usize = 200;
 
@@ -433,12 +436,23 @@ impl<'s> Solved<'s> {
         all
     }
 
+    /// A group that is left by its label, and what is left of it where that is short.
+    pub fn named(&self, group: &Group) -> String {
+        let texts = group.equations.iter().map(|&e| self.space.graph.text(e));
+        match texts.collect::<Vec<_>>().as_slice() {
+            [text] if text.len() <= LONGEST_NAMED => {
+                format!("`{}`, that is {text} = 0,", group.label)
+            }
+            _ => format!("`{}`", group.label),
+        }
+    }
+
     /// A verdict, but that nothing is refuted while an equation is left that could not be solved.
     fn without_refutation(&self, verdict: Verdict) -> Verdict {
         match (&verdict, self.left.first()) {
             (Verdict::Refuted(_), Some(left)) => Verdict::undecided(format!(
-                "`{}` could not be solved for any field",
-                left.label
+                "{} could not be solved for any field",
+                self.named(left)
             )),
             _ => verdict,
         }

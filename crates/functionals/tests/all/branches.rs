@@ -237,6 +237,28 @@ fn a_current_is_closed_on_all_branches() {
     assert_ne!(word, "proved", "{detail}");
 }
 
+/// The area of a surface of revolution: u u'' = 1 + u'² excludes u = 0, so that u u' = 0 at a free end is u' = 0.
+#[test]
+fn a_factor_that_the_equations_exclude_is_no_case() {
+    let surface = |free: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"surface\"\ndensity = \"u sqrt(1 + u,x^2)\"\nyields = [\"a\", \"b\"]\n\
+             [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 2] }}\n[fields]\nu = \"scalar\"\n\
+             [boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 2\" = \"0\"\n\
+             [equations]\na = \"u u,xx = 1 + u,x^2\"\nb = {{ equation = \"{free}\", on = \"x = 2\" }}\n"
+        )
+    };
+    for (free, wanted) in [
+        ("u u,x = 0", "proved"),
+        ("u,x = 0", "proved"),
+        ("u = 0", "refuted"),
+        ("u,x = 1", "refuted"),
+    ] {
+        let (word, detail) = word(&surface(free), "functional.euler");
+        assert_eq!(word, wanted, "{free}: {detail}");
+    }
+}
+
 /// On a line u'' = 0 with E u' = P at the end is E u' = P everywhere.
 #[test]
 fn what_is_constant_and_holds_at_an_end_holds() {

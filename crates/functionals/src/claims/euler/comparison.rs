@@ -299,7 +299,7 @@ impl<'f> Comparison<'f> {
             return Judged {
                 what,
                 verdict: whole,
-                open: labels.map(|group| format!("`{}`", group.label)).collect(),
+                open: labels.map(|group| solved.named(group)).collect(),
                 pivots: Vec::new(),
             };
         };
@@ -311,7 +311,7 @@ impl<'f> Comparison<'f> {
             self.nonzero.borrow_mut().extend(divided);
             let verdict = of_all(es, &case);
             let labels = case.left.iter().filter(|_| !case.is_circular());
-            let labels: Vec<String> = labels.map(|group| format!("`{}`", group.label)).collect();
+            let labels: Vec<String> = labels.map(|group| case.named(group)).collect();
             // One case in which it is false is enough, whatever is open about others.
             if let (Verdict::Refuted(_), true) = (&verdict, labels.is_empty()) {
                 let g = &self.functional.space.graph;
