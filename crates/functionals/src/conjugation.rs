@@ -17,6 +17,14 @@ impl Space {
     pub fn conjugation(&self, function: usize) -> Option<Verdict> {
         let other = self.function_at(function).conjugate?;
         let pair = (function.min(other), function.max(other));
+        if let Some(name) = self.without_conjugate(pair) {
+            return Some(Verdict::not_applicable(
+                "functional.legendre",
+                format!(
+                    "the gradient of `{name}` is linear, and the determinant of its matrix is zero: it is not one-to-one, so that `{name}` has no conjugate"
+                ),
+            ));
+        }
         self.decided_once(pair, &|| {
             let there = self.undone(pair.0, pair.1)?;
             let back = self.undone(pair.1, pair.0)?;
@@ -51,6 +59,17 @@ impl Space {
         }
     }
 
+    /// The one of two functions whose gradient is linear and not one-to-one.
+    fn without_conjugate(&self, pair: (usize, usize)) -> Option<String> {
+        let is_singular = |function: usize| {
+            let own = self.determinant_of(function);
+            own.is_some_and(|e| self.vanish(&[e]))
+        };
+        let mut both = [pair.0, pair.1].into_iter();
+        let own = both.find(|&function| is_singular(function))?;
+        Some(self.function_at(own).name)
+    }
+
     /// The x at which `A'(x) = s`, in the place-holders, where the gradient is linear.
     fn inverse_of_linear(&self, function: usize) -> Option<Vec<Expr>> {
         let g = &self.graph;
@@ -68,7 +87,9 @@ impl Space {
             }
         }
         let rows: Vec<Vec<Expr>> = matrix.chunks(slots.len()).map(<[Expr]>::to_vec).collect();
-        if self.vanish(&[determinant(g, &rows)]) {
+        let determinant = determinant(g, &rows);
+        self.note_determinant(function, determinant);
+        if self.vanish(&[determinant]) {
             return None;
         }
         let at_zero: Vec<(Expr, Expr)> = slots.iter().map(|&s| (s, g.zero())).collect();

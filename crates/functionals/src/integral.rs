@@ -2,6 +2,7 @@
 
 use crate::functional::{Interval, Side};
 use crate::space::Space;
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::{rational, Expr, Function, Node};
 
 /// Highest degree by one variable.
@@ -17,7 +18,7 @@ pub fn coefficients(space: &Space, e: Expr, axis: usize) -> Option<Vec<Expr>> {
     }
     let one = g.one();
     let mut found = Vec::new();
-    let mut slope = e;
+    let mut slope = without_removable_poles(space, e, variable)?;
     let mut factorial = rational::integer(1);
     for k in 0..=HIGHEST_DEGREE {
         if g.is_zero(slope) || (k > 2 && space.vanish(&[slope])) {
@@ -33,6 +34,31 @@ pub fn coefficients(space: &Space, e: Expr, axis: usize) -> Option<Vec<Expr>> {
             .swap_remove(0);
     }
     None
+}
+
+/// The expression over its common denominator, `r (1/r + r)` as `1 + r²`; `None` where the variable is left in the denominator.
+fn without_removable_poles(space: &Space, e: Expr, variable: Expr) -> Option<Expr> {
+    let g = &space.graph;
+    let symbol = g.as_symbol(variable)?;
+    let has_pole = g.reachable(&[e]).into_iter().any(|own| match g.node(own) {
+        Node::Power { exponent, .. } => {
+            let is_negative = g.as_number(*exponent).is_some_and(rational::is_negative);
+            is_negative && g.contains_any(own, &[symbol])
+        }
+        _ => false,
+    });
+    if !has_pole {
+        return Some(e);
+    }
+    let own = factored(g, e)?;
+    let is_below = |(factor, power): &(Expr, i64)| *power < 0 && g.contains_any(*factor, &[symbol]);
+    if own.factors.iter().any(is_below) {
+        return None;
+    }
+    let factors = own.factors.iter();
+    let mut factors: Vec<Expr> = factors.map(|&(factor, n)| g.powi(factor, n)).collect();
+    factors.push(g.number(own.coefficient));
+    Some(g.mul(&factors))
 }
 
 /// Whether an expression is given by the Taylor series that its derivatives are of: |x| and roots are so on each side of their zeros only.

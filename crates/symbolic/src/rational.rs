@@ -48,6 +48,11 @@ pub fn sum(a: &Rational, b: &Rational) -> Rational {
     }
 }
 
+/// The number that a double is, exactly; `None` where it is none.
+pub fn from_f64(value: f64) -> Option<Rational> {
+    Rational::try_from(value).ok()
+}
+
 /// Whether `r < 0`.
 pub fn is_negative(r: &Rational) -> bool {
     r.is_negative() && !r.is_zero()

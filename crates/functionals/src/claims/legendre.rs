@@ -54,6 +54,13 @@ impl Claim for Legendre {
         };
         let name = |function: usize| space.function_at(function).name;
         match space.conjugation(own.function) {
+            Some(verdict @ Verdict::NotApplicable { .. }) => verdict.into(),
+            _ if space.determinant_of(own.function).is_some() => {
+                computed(&name(other), &own.name, &own.name)
+            }
+            _ if space.determinant_of(other).is_some() => {
+                computed(&own.name, &name(other), &own.name)
+            }
             _ if !is_stated(other) => assumed(&name(other), &own.name),
             _ if !is_stated(own.function) => assumed(&own.name, &own.name),
             Some(verdict) => verdict.into(),
@@ -66,6 +73,14 @@ fn assumed(without: &str, subject: &str) -> Finding {
     Verdict::not_applicable(
         format!("functional.legendre#{subject}"),
         format!("`{without}` has no formula, so the relation is assumed by the model"),
+    )
+    .into()
+}
+
+fn computed(without: &str, from: &str, subject: &str) -> Finding {
+    Verdict::not_applicable(
+        format!("functional.legendre#{subject}"),
+        format!("`{without}` has no formula and is computed as the conjugate of `{from}`"),
     )
     .into()
 }

@@ -380,12 +380,12 @@ impl Inserted<'_> {
         let undecided = |why: &str| Box::new(Verdict::undecided(why));
         let ansatz = self.ansatz();
         let unknowns: Vec<Expr> = ansatz.iter().flat_map(|(_, own)| own.clone()).collect();
-        let conditions = self
-            .kept(&ansatz)
-            .ok_or_else(|| undecided("what is imposed is no polynomial at the stated fields"))?;
-        let first = self
-            .first(&ansatz)
-            .ok_or_else(|| undecided("the densities are no polynomials at the stated fields"))?;
+        // The Euler equations and natural conditions hold already: this is a second way, for polynomials only.
+        let (Some(conditions), Some(first)) = (self.kept(&ansatz), self.first(&ansatz)) else {
+            return Ok(
+                "the functional itself was not varied, as it is no polynomial at them".to_owned(),
+            );
+        };
         let slopes = |e: Expr| -> Vec<Expr> {
             let one = g.one();
             let own = unknowns.iter().filter_map(|&c| g.as_symbol(c));

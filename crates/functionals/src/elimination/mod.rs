@@ -91,8 +91,19 @@ pub struct Solved<'s> {
 pub struct Pivot {
     /// The tensor solved for.
     pub tensor: String,
-    /// Whether fields or data occur in the matrix; else only parameters or the normal do.
-    pub has_fields: bool,
+    /// What its entries depend on.
+    pub entries: Entries,
+}
+
+/// On what the entries of a matrix depend: the first of these that occurs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Entries {
+    /// Fields, data, or functions of them.
+    Fields,
+    /// The normal.
+    Normal,
+    /// Parameters only; the matrix is too large for its determinant to be printed.
+    Parameters,
 }
 
 /// A jet with its value.

@@ -1,7 +1,7 @@
 //! Groups of equations solved one after the other: for which tensor, by which rows, and what is divided by.
 
 use super::ranking::Ranking;
-use super::{rest, Adopted, Group, Pivot, Rule, Solved, MOST_ROUNDS};
+use super::{rest, Adopted, Entries, Group, Pivot, Rule, Solved, MOST_ROUNDS};
 use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
@@ -77,7 +77,7 @@ impl Solved<'_> {
                 (Some(own), _) => {
                     let label = self.left[own.group].label.clone();
                     undone.insert((label, own.function.clone()));
-                    self.note_nonzero(&own.matrix, None);
+                    self.note_divisors(&own.matrix, &own.function);
                     self.inverted.insert(own.function);
                     self.left[own.group].equations = own.equations;
                 }
@@ -462,7 +462,8 @@ impl Solved<'_> {
             return false;
         };
         if let Some(jet) = choice.jets.first() {
-            self.note_divisors(&choice.matrix, jet.component);
+            let tensor = self.space.component_at(jet.component).tensor;
+            self.note_divisors(&choice.matrix, &tensor);
         }
         let group = &self.left[choice.group];
         self.adopted.push(Adopted {
@@ -556,7 +557,10 @@ impl Solved<'_> {
                 let full = self
                     .pivots_of(&matrix)
                     .is_some_and(|p| p.rows.len() == gradient.len());
-                if !full {
+                let rows: Vec<usize> = (0..group.equations.len()).collect();
+                let divides_product = self.has_fields(&matrix.concat())
+                    && self.meets_product(&group.equations, &rows);
+                if !full || divides_product {
                     continue;
                 }
                 let zeros: Vec<(Expr, Expr)> = gradient.iter().map(|&e| (e, g.zero())).collect();
@@ -582,7 +586,7 @@ impl Solved<'_> {
     }
 
     /// What must not vanish so that a matrix is regular, with functions as their formulas.
-    fn note_divisors(&mut self, matrix: &[Vec<Expr>], component: usize) {
+    fn note_divisors(&mut self, matrix: &[Vec<Expr>], tensor: &str) {
         let of_row = |row: &Vec<Expr>| row.iter().map(|&e| self.space.explicit(e)).collect();
         let matrix: Vec<Vec<Expr>> = matrix.iter().map(of_row).collect();
         let size = matrix.len();
@@ -594,13 +598,15 @@ impl Solved<'_> {
         if is_regular {
             return;
         }
-        let has_fields = self.has_fields(&matrix.concat());
-        if !has_fields && matrix.iter().all(|row| self.is_free(row)) {
-            self.note_nonzero(&matrix, Some(component));
+        let entries = if self.has_fields(&matrix.concat()) {
+            Entries::Fields
+        } else if matrix.iter().all(|row| self.is_free(row)) {
+            return self.note_nonzero(&matrix, tensor);
         } else {
-            let tensor = self.space.component_at(component).tensor;
-            self.note_pivot(Pivot { tensor, has_fields });
-        }
+            Entries::Normal
+        };
+        let tensor = tensor.to_owned();
+        self.note_pivot(Pivot { tensor, entries });
     }
 
     fn note_pivot(&mut self, pivot: Pivot) {
@@ -620,7 +626,7 @@ impl Solved<'_> {
 
     /// What must not vanish so that a matrix without fields is regular: the factors of its determinant in which something occurs that
     /// has no value. A large matrix is named by what was solved for.
-    fn note_nonzero(&mut self, matrix: &[Vec<Expr>], component: Option<usize>) {
+    fn note_nonzero(&mut self, matrix: &[Vec<Expr>], tensor: &str) {
         let g = &self.space.graph;
         let symbols = g.symbols_in(&matrix.concat());
         if symbols.is_empty() {
@@ -635,12 +641,10 @@ impl Solved<'_> {
         } else if size <= LARGEST_DETERMINANT {
             vec![determinant(g, matrix)]
         } else {
-            if let Some(component) = component {
-                self.note_pivot(Pivot {
-                    tensor: self.space.component_at(component).tensor,
-                    has_fields: false,
-                });
-            }
+            self.note_pivot(Pivot {
+                tensor: tensor.to_owned(),
+                entries: Entries::Parameters,
+            });
             return;
         };
         let divisors: BTreeSet<Expr> = divisors.into_iter().collect();

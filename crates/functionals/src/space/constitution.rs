@@ -81,6 +81,21 @@ impl Space {
         self.known.borrow_mut().clear();
     }
 
+    /// Keeps the determinant of the gradient of a function that is linear.
+    pub(crate) fn note_determinant(&self, function: usize, determinant: Expr) {
+        self.determinants.borrow_mut().insert(function, determinant);
+    }
+
+    /// The determinant of the gradient of a function that is linear, where its conjugate has no formula.
+    pub(crate) fn determinant_of(&self, function: usize) -> Option<Expr> {
+        self.determinants.borrow().get(&function).copied()
+    }
+
+    /// What must not vanish so that functions have the conjugates that were computed for them.
+    pub(crate) fn determinants(&self) -> Vec<Expr> {
+        self.determinants.borrow().values().copied().collect()
+    }
+
     /// What `decide` says of a pair of functions, asked once; while it is asked, nothing is known of the pair.
     pub(crate) fn decided_once(
         &self,

@@ -72,6 +72,8 @@ pub struct Space {
     jets: RefCell<BTreeMap<Symbol, Jet>>,
     applications: RefCell<BTreeMap<Symbol, Application>>,
     known: RefCell<BTreeMap<Application, Expr>>,
+    /// The determinants of linear gradients from which the conjugate was computed, or which have none.
+    determinants: RefCell<BTreeMap<usize, Expr>>,
     /// Whether pairs of functions are conjugates by their formulas; nothing where one has none.
     conjugations: RefCell<BTreeMap<(usize, usize), Option<Verdict>>>,
     /// The normal, and the distance from the boundary, inwards negative.
@@ -121,6 +123,7 @@ impl Space {
             jets: RefCell::default(),
             applications: RefCell::default(),
             known: RefCell::default(),
+            determinants: RefCell::default(),
             conjugations: RefCell::default(),
             assumptions: RefCell::default(),
             arguments: RefCell::default(),

@@ -6,6 +6,7 @@ mod assumptions;
 mod bar;
 mod branches;
 mod classical;
+mod conditions;
 mod conjugates;
 mod curved;
 mod degenerations;

@@ -374,18 +374,21 @@ impl<'a> Hunt<'a> {
         }
         let middle = match (low, high) {
             (Some(low), Some(high)) => low + (high - low) * (1 + self.random.below(7)) as f64 / 8.0,
-            (Some(low), None) => low + self.random.between(1, 5) as f64,
-            (None, Some(high)) => high - self.random.between(1, 5) as f64,
+            (Some(low), None) => low + self.random.between(1, 5) as f64 * step(low),
+            (None, Some(high)) => high - self.random.between(1, 5) as f64 * step(high),
             (None, None) => 0.0,
         };
-        // The coarsest dyadic fraction inside the bounds.
+        // The coarsest dyadic fraction inside the bounds; in an interval of nanometres, or far from zero, a double as it is.
         for scale in [1.0, 2.0, 4.0, 8.0, 64.0, 1024.0, 1_048_576.0] {
             let numerator = (middle * scale).round();
             if inside(numerator / scale) && numerator.abs() < 1e15 {
                 return ratio(numerator as i64, scale as i64);
             }
         }
-        Rational::ZERO
+        match rational::from_f64(middle) {
+            Some(own) if inside(middle) => own,
+            _ => Rational::ZERO,
+        }
     }
 
     /// Bounds stated by assumptions that compare the symbol with a number or a multiple of π, for the choice only.
@@ -512,6 +515,11 @@ impl<'a> Hunt<'a> {
             residual: (lower, upper),
         }
     }
+}
+
+/// By how much one goes beyond a bound.
+fn step(bound: f64) -> f64 {
+    (bound.abs() / 8.0).max(1.0)
 }
 
 fn ratio(numerator: i64, denominator: i64) -> Rational {

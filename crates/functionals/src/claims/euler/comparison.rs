@@ -1,8 +1,8 @@
 //! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
 //! and where pieces meet.
 
-use crate::elimination::{Group, Pivot, Solved};
-use crate::functional::{Equation, Functional, Piece, Role};
+use crate::elimination::{Entries, Group, Pivot, Solved};
+use crate::functional::{Equation, Functional, Piece, Role, Side};
 use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -17,7 +17,7 @@ pub(super) struct Comparison<'f> {
     /// What holds because it is imposed or derived.
     pub(super) derived: Solved<'f>,
     /// What holds because it is imposed or stated.
-    stated: Solved<'f>,
+    pub(super) stated: Solved<'f>,
     /// What is derived on pieces, by name.
     on_pieces: RefCell<BTreeMap<String, Solved<'f>>>,
     /// What was divided by and has no value.
@@ -274,7 +274,11 @@ impl<'f> Comparison<'f> {
         es.iter().all(|&e| {
             let is_zero_on = |on: &OnPiece| {
                 let piece = self.functional.piece(&on.piece);
-                piece.is_some_and(|piece| self.derived_on(on, piece).follows(&[e]))
+                // A piece without a place may be empty.
+                piece.is_some_and(|piece| {
+                    matches!(piece.side, Side::Flat { .. })
+                        && self.derived_on(on, piece).follows(&[e])
+                })
             };
             self.derived.follows(&[e])
                 || self.derived.follows(&[space.total(e, 0)])
@@ -421,16 +425,24 @@ impl<'f> Comparison<'f> {
                 .push_str("; curved pieces meet with a common tangent plane");
         }
         proof.detail = self.detail();
-        let of_fields: BTreeSet<&str> = pivots
-            .iter()
-            .filter(|pivot| pivot.has_fields)
-            .map(|pivot| pivot.tensor.as_str())
-            .collect();
+        let of = |entries: Entries| {
+            let own = pivots.iter().filter(|pivot| pivot.entries == entries);
+            own.map(|pivot| pivot.tensor.as_str())
+                .collect::<BTreeSet<_>>()
+        };
+        let joined = |names: BTreeSet<&str>| names.into_iter().collect::<Vec<_>>().join(" and ");
+        let of_fields = of(Entries::Fields);
         if !of_fields.is_empty() {
-            let names: Vec<&str> = of_fields.into_iter().collect();
             proof.detail.push_str(&format!(
                 ", where the coefficients of {}, in which fields occur, are regular",
-                names.join(" and ")
+                joined(of_fields)
+            ));
+        }
+        let of_parameters = of(Entries::Parameters);
+        if !of_parameters.is_empty() {
+            proof.detail.push_str(&format!(
+                ", where the matrix of the coefficients of {}, in which parameters stand, is regular",
+                joined(of_parameters)
             ));
         }
         for more in self.traces().into_iter().chain(self.undetermined()) {
@@ -491,7 +503,7 @@ pub(super) fn refuted(what: &str, found: Counterexample) -> Verdict {
     };
     Verdict::Refuted(Counterexample {
         detail: format!(
-            "{what} does not hold where the other system does: its residual {size} at the jet stated"
+            "{what} does not follow from the other system at the same place: its residual {size} at the jet stated"
         ),
         quantity: what.to_owned(),
         ..found

@@ -1,14 +1,30 @@
 //! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
 
 use crate::functional::{Functional, Role};
-use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Relation};
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Relation, SignSet};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{rational, Expr, Function, Node, Verdict};
+use chetaev_symbolic::{rational, Expr, Function, Node, Rational, Symbol, Verdict};
 use std::collections::BTreeSet;
+
+/// An expression and how it has to compare with zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Needed {
+    /// The expression.
+    pub(super) of: Expr,
+    relation: Relation,
+}
+
+impl Needed {
+    /// Whether it is not fulfilled at zero.
+    pub(super) fn excludes_zero(&self) -> bool {
+        is_contradicted(self.relation, SignSet::ZERO)
+    }
+}
 
 /// Where the densities can be differentiated and the stated equations are defined: roots, logarithms and denominators say it. `None` where
 /// what they ask for excludes itself.
-pub(super) fn where_defined(functional: &Functional) -> Option<String> {
+pub(super) fn where_defined(functional: &Functional) -> Option<Vec<Needed>> {
     let stated = functional.equations.iter();
     let stated = stated.filter(|e| e.role != Role::Other);
     let stated: Vec<Expr> = stated.flat_map(|e| e.residuals.iter().copied()).collect();
@@ -19,25 +35,29 @@ pub(super) fn where_defined(functional: &Functional) -> Option<String> {
     let g = &functional.space.graph;
     let mut needed = Vec::new();
     let mut together = functional.space.assumptions();
-    for &(left, relation) in &all {
-        let right = g.zero();
-        let sign = known_sign(g, left, &together);
-        if is_contradicted(relation, sign) {
+    for own in all {
+        let sign = known_sign(g, own.of, &together);
+        if is_contradicted(own.relation, sign) {
             return None;
         }
-        if !is_implied(relation, sign) {
-            together.assume(left, relation, right);
-            needed.push((left, relation));
+        if !is_implied(own.relation, sign) {
+            together.assume(own.of, own.relation, g.zero());
+            needed.push(own);
         }
     }
+    Some(needed)
+}
+
+/// ", where …", or nothing.
+pub(super) fn in_words(functional: &Functional, needed: &[Needed]) -> String {
     if needed.is_empty() {
-        return Some(String::new());
+        return String::new();
     }
-    let texts = needed.iter();
-    let texts = texts.map(|(e, relation)| format!("{} {} 0", g.text(*e), relation.symbol()));
-    let texts: BTreeSet<String> = texts.collect();
+    let g = &functional.space.graph;
+    let text = |own: &Needed| format!("{} {} 0", g.text(own.of), own.relation.symbol());
+    let texts: BTreeSet<String> = needed.iter().map(text).collect();
     let texts: Vec<String> = texts.into_iter().collect();
-    Some(format!(", where {}", texts.join(", ")))
+    format!(", where {}", texts.join(", "))
 }
 
 /// What an expression is needed for.
@@ -50,9 +70,31 @@ enum Need {
 }
 
 /// Conditions under which expressions have values, or derivatives.
-fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<(Expr, Relation)> {
+fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<Needed> {
     let g = &functional.space.graph;
     let is_smooth = need == Need::Slope;
+    // |x|³ has derivatives at zero, where |x| has none.
+    let is_smooth_power = |base: Expr, n: &Rational| {
+        let jets = functional.space.jets_in(&[base]);
+        // The coefficients of derivatives are differentiated once more.
+        let order = if jets.iter().all(|jet| jet.by.is_empty()) {
+            1
+        } else {
+            2
+        };
+        *n > rational::integer(order)
+    };
+    let smoothed: BTreeSet<Expr> = g
+        .reachable(es)
+        .into_iter()
+        .filter_map(|e| match g.node(e) {
+            Node::Power { base, exponent } => {
+                let number = g.as_number(*exponent)?;
+                is_smooth_power(*base, number).then_some(*base)
+            }
+            _ => None,
+        })
+        .collect();
     let condition = |e: Expr| {
         let (inner, relation) = match g.node(e) {
             Node::Power { base, exponent } => {
@@ -61,6 +103,7 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<(Expr, Re
                 let is_negative = number.is_some_and(rational::is_negative);
                 let is_even_root =
                     number.is_none_or(|n| n.denominator().trailing_zeros() != Some(0));
+                let is_smooth = is_smooth && !number.is_some_and(|n| is_smooth_power(*base, n));
                 match (is_whole, is_even_root) {
                     (true, _) if is_negative => (*base, Relation::NotEqual),
                     (true, _) => return None,
@@ -75,21 +118,35 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<(Expr, Re
                 arguments,
             } => match function {
                 Function::Log => (*arguments.first()?, Relation::Greater),
-                Function::Abs if is_smooth => (*arguments.first()?, Relation::NotEqual),
+                Function::Abs if is_smooth && !smoothed.contains(&e) => {
+                    (*arguments.first()?, Relation::NotEqual)
+                }
                 _ => return None,
             },
             _ => return None,
         };
         let sign = functional.space.sign(inner);
-        let is_known = match relation {
-            Relation::Greater => sign.is_positive(),
-            Relation::GreaterOrEqual => sign.is_nonnegative(),
-            _ => sign.is_nonzero(),
-        };
         let has_jets = !functional.space.jets_in(&[inner]).is_empty();
-        (has_jets && !is_known).then_some((inner, relation))
+        (has_jets && !is_implied(relation, sign)).then_some(Needed {
+            of: inner,
+            relation,
+        })
     };
     g.reachable(es).into_iter().filter_map(condition).collect()
+}
+
+/// The factors of an expression that have no known sign, each of which must not vanish so that it does not.
+pub(super) fn open_factors(functional: &Functional, e: Expr) -> Vec<Expr> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let symbols: Vec<Symbol> = space.symbols_in(&[e]).into_iter().collect();
+    let factors = factors(g, e, &symbols).unwrap_or_else(|| vec![(e, 1)]);
+    let is_open = |e: &Expr| g.as_number(*e).is_none() && !space.sign(*e).is_nonzero();
+    factors
+        .into_iter()
+        .map(|(e, _)| e)
+        .filter(is_open)
+        .collect()
 }
 
 /// A proof that divides by something without a value holds where that does not vanish.

@@ -7,7 +7,7 @@ mod plane;
 mod remarks;
 
 use self::comparison::Comparison;
-use self::conditions::{where_defined, where_nonzero};
+use self::conditions::{in_words, open_factors, where_defined, where_nonzero, Needed};
 use self::exceptions::holds_at_zero;
 use self::plane::planes;
 use super::branches::{branches, Branch};
@@ -27,7 +27,7 @@ impl Claim for Euler {
     }
 
     fn title(&self) -> &'static str {
-        "The functional is stationary exactly where the stated field equations and boundary conditions hold"
+        "The Euler equations and natural conditions are equivalent to the stated field equations and boundary conditions"
     }
 
     fn explanation(&self) -> &'static str {
@@ -35,7 +35,9 @@ impl Claim for Euler {
          with the equations that `yields` names, together with those that `imposed` names. Both systems are solved, one group of \
          equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
          conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
-         other holds, both ways. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
+         other holds, both ways, inside and on each piece. Equations are compared at one place, by algebra and differentiation, and in one \
+         dimension by integrating what is constant; what conditions at other places enforce together (a beam without supports whose \
+         load is zero only moves rigidly) is not looked for. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
          energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
          regular. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
          jet at which one system holds and the other does not."
@@ -59,29 +61,48 @@ impl Claim for Euler {
             Some(all) => on_branches(&all),
             None => on_branch(&own, &[]),
         };
-        match verdict {
-            Verdict::Proved(mut proof) => {
-                if let Some(said) = cx.admission.of_redundant() {
-                    proof.detail.push_str(&format!(", with {said}"));
-                }
-                match where_defined(functional) {
-                    Some(said) => {
-                        proof.on.push_str(&said);
-                        proof.detail.push_str(&said);
-                    }
-                    None => {
-                        return Verdict::not_applicable(
-                            "functional.euler",
-                            "what is stated is defined nowhere: its roots, logarithms and denominators exclude each other",
-                        )
-                        .into()
-                    }
-                }
-                Verdict::Proved(proof).into()
+        let Some(conditions) = where_defined(functional) else {
+            return match verdict {
+                Verdict::Proved(_) => Verdict::not_applicable(
+                    "functional.euler",
+                    "what is stated is defined nowhere: its roots, logarithms and denominators exclude each other",
+                ),
+                other => other,
             }
-            other => other.into(),
+            .into();
+        };
+        let is_decided = matches!(verdict, Verdict::Proved(_) | Verdict::Refuted(_));
+        let excluded = is_decided.then(|| vanishing_condition(functional, &conditions));
+        if let Some(e) = excluded.flatten() {
+            return Verdict::undecided(format!(
+                "where the equations hold, {} vanishes, and there the densities have no derivatives or the equations no values",
+                functional.space.graph.text(e)
+            ))
+            .into();
         }
+        let Verdict::Proved(mut proof) = verdict else {
+            return verdict.into();
+        };
+        if let Some(said) = cx.admission.of_redundant() {
+            proof.detail.push_str(&format!(", with {said}"));
+        }
+        let said = in_words(functional, &conditions);
+        proof.on.push_str(&said);
+        proof.detail.push_str(&said);
+        Verdict::Proved(proof).into()
     }
+}
+
+/// What a condition asks not to vanish although it does where the Euler equations hold, or the stated ones.
+fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option<Expr> {
+    if conditions.is_empty() {
+        return None;
+    }
+    let own = variation(functional).ok()?;
+    let comparison = Comparison::new(functional, &own, &[], &[]);
+    let all = conditions.iter().filter(|own| own.excludes_zero());
+    let mut all = all.map(|own| own.of);
+    all.find(|&e| comparison.derived.follows(&[e]) || comparison.stated.follows(&[e]))
 }
 
 /// The verdict where some expressions are known not to be negative.
@@ -102,11 +123,21 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
     if !matches!(verdict, Verdict::Proved(_)) {
         return verdict;
     }
-    let found = comparison.nonzero.borrow();
-    let is_needed = |factor: &&Expr| !holds_at_zero(functional, **factor, &found);
-    let needed = found.iter().filter(is_needed);
+    let mut needed = comparison.nonzero.borrow().clone();
+    for factor in comparison.nonzero.borrow().iter() {
+        needed.remove(factor);
+        if !holds_at_zero(functional, *factor, &needed) {
+            needed.insert(*factor);
+        }
+    }
     let g = &functional.space.graph;
-    where_nonzero(verdict, &needed.map(|&factor| g.text(factor)).collect())
+    // Conjugates that were computed are there only where the gradients are one-to-one.
+    let computed = functional.space.determinants().into_iter();
+    needed.extend(computed.flat_map(|e| open_factors(functional, e)));
+    where_nonzero(
+        verdict,
+        &needed.iter().map(|&factor| g.text(factor)).collect(),
+    )
 }
 
 /// The verdicts on all branches in one: true on some only, it is true where these are.
