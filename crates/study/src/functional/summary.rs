@@ -7,7 +7,7 @@ use super::equations::{
 use super::table;
 use crate::layout::{hanging, terms};
 use crate::summary::{bold, coloured, Style};
-use chetaev_functionals::functional::{Field, Role};
+use chetaev_functionals::functional::{Field, Functional, Role};
 use chetaev_functionals::notation::written_equation;
 use chetaev_functionals::Study;
 use chetaev_symbolic::print::Format;
@@ -150,6 +150,9 @@ fn heading(text: &mut String, study: &Study, style: Style) {
     for field in &f.data {
         line(text, "given", &described(field));
     }
+    if let Some(values) = values(f) {
+        line(text, "values", &values);
+    }
     for own in &f.assumptions {
         line(text, "assumed", own);
     }
@@ -160,6 +163,16 @@ fn heading(text: &mut String, study: &Study, style: Style) {
             &format!("{}: {}", own.name, own.description),
         );
     }
+}
+
+/// The values that the model gives parameters: claims are decided for them.
+fn values(f: &Functional) -> Option<String> {
+    let valued = f.parameters.iter().filter_map(|own| {
+        let value = f.space.graph.text(own.value?);
+        Some(format!("{} = {value}", own.name))
+    });
+    let values: Vec<String> = valued.collect();
+    (!values.is_empty()).then(|| values.join(", "))
 }
 
 fn line(text: &mut String, label: &str, words: &str) {

@@ -260,10 +260,7 @@ impl Case<'_> {
             }
             (0, 0, None) => self.search(&finding.why_no_bound),
             (0, _, _) => self.on_branches(&finding),
-            _ => self.search(&format!(
-                "not zero in the field of its generators ({})",
-                generators(program)
-            )),
+            _ => self.search(&not_zero(program)),
         }
     }
 
@@ -322,7 +319,7 @@ impl Case<'_> {
                 why_no_proof: why.to_owned(),
             }),
             Search::NoPoint => Verdict::undecided(format!(
-                "{why}; no point with small rational data could be evaluated"
+                "{why}; no point was found at which all is defined and the assumptions hold"
             )),
         }
     }
@@ -380,6 +377,15 @@ fn place(test: &ZeroTest<'_>, conditions: &[String]) -> String {
         place.push_str(&conditions.join(" and "));
     }
     place
+}
+
+/// That a normal form is not zero, with what was taken to be independent in it.
+fn not_zero(program: &Program) -> String {
+    let kinds = generators(program);
+    if kinds.is_empty() {
+        return "it is not zero by exact arithmetic".to_owned();
+    }
+    format!("it does not cancel where {kinds} are taken to be independent")
 }
 
 /// The kinds of generators, for people.
