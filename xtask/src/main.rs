@@ -1,7 +1,8 @@
 //! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
-//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask python`, `cargo xtask checked`, `cargo xtask web`, `cargo xtask bench`.
+//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask python`, `cargo xtask checked`, `cargo xtask web`, `cargo xtask book`, `cargo xtask bench`.
 
 mod bench;
+mod book;
 mod browser;
 mod checked;
 // A test and a figure of the house, by the same rules.
@@ -44,6 +45,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   fuzz      coverage-guided fuzzing of what reads texts
   checked   what the independent checker confirms of the gallery, as a page
   python    the Python package in a virtual environment, and its tests
+  book      the book as pages for a browser, made by mdBook
   web       the playground in the browser, and its tests
   bench     the benchmark, and the page of the book made of it
   help      this text
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
         "python" => python::run(rest),
         "web" => web::run(rest),
         "bench" => bench::run(rest),
+        "book" => book::run(rest),
         "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {
             out(HELP);
