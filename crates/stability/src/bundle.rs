@@ -28,6 +28,10 @@ pub struct Bundle {
     pub minors: Vec<Expr>,
     /// Whether a function that falls is among them: then the form must be positive.
     pub falls: bool,
+    /// κ, one number for each integral.
+    pub weights: Vec<Expr>,
+    /// The second variation on the directions in which no integral changes.
+    pub form: Vec<Vec<Expr>>,
 }
 
 impl Bundle {
@@ -38,20 +42,43 @@ impl Bundle {
             return false;
         }
         let signs: Option<Vec<Ordering>> = self.minors.iter().map(|&e| sign(e)).collect();
-        signs.is_some_and(|signs| {
-            let is_positive = signs.iter().all(|s| *s == Ordering::Greater);
-            let alternates = |(at, s): (usize, &Ordering)| match at % 2 {
-                0 => *s == Ordering::Less,
-                _ => *s == Ordering::Greater,
-            };
-            is_positive || !self.falls && signs.iter().enumerate().all(alternates)
-        })
+        signs.is_some_and(|signs| is_positive(&signs) || !self.falls && is_negative(&signs))
+    }
+
+    /// It with a value for a symbol.
+    pub(crate) fn at(&self, g: &Graph, value: (Expr, Expr)) -> Bundle {
+        let put = |es: &[Expr]| -> Vec<Expr> {
+            let found = g.substitute_all(es, &[value]);
+            found.into_iter().map(|e| closed(g, e)).collect()
+        };
+        Bundle {
+            text: self.text.clone(),
+            nonzero: put(&self.nonzero),
+            minors: put(&self.minors),
+            falls: self.falls,
+            weights: put(&self.weights),
+            form: self.form.iter().map(|row| put(row)).collect(),
+        }
     }
 
     /// What must keep its sign.
     pub fn functions(&self) -> impl Iterator<Item = Expr> + '_ {
         self.nonzero.iter().chain(&self.minors).copied()
     }
+}
+
+/// Whether a form with minors of these signs is positive.
+pub(crate) fn is_positive(minors: &[Ordering]) -> bool {
+    minors.iter().all(|s| *s == Ordering::Greater)
+}
+
+/// Whether a form with minors of these signs is negative.
+pub(crate) fn is_negative(minors: &[Ordering]) -> bool {
+    let mut all = minors.iter().enumerate();
+    all.all(|(at, s)| match at % 2 {
+        0 => *s == Ordering::Less,
+        _ => *s == Ordering::Greater,
+    })
 }
 
 /// The bundles of these integrals of n variables.
@@ -72,6 +99,8 @@ pub fn bundles(g: &Graph, jets: &[Jet], n: usize) -> Vec<Bundle> {
             nonzero,
             minors: Vec::new(),
             falls: false,
+            weights: Vec::new(),
+            form: Vec::new(),
         }];
     }
     let forms: Vec<Combination> = combinations
@@ -154,6 +183,8 @@ impl Combination {
             nonzero: nonzero.to_vec(),
             minors: minors(g, &self.form),
             falls: self.falls,
+            weights: self.weights.clone(),
+            form: self.form.clone(),
         }
     }
 
@@ -233,7 +264,7 @@ fn restricted(
     product(g, directions, &product(g, &whole, &columns))
 }
 
-fn minors(g: &Graph, form: &[Vec<Expr>]) -> Vec<Expr> {
+pub(crate) fn minors(g: &Graph, form: &[Vec<Expr>]) -> Vec<Expr> {
     let leading = |size: usize| -> Vec<Vec<Expr>> {
         form[..size]
             .iter()

@@ -3,20 +3,26 @@
 
 use crate::bundle::{bundles, Bundle};
 use crate::expansion::Expansion;
-use crate::hurwitz::{Crossing, Ranges};
+use crate::hurwitz::{Boundary, Crossing, Ranges};
+use crate::integrals::Jet;
 use crate::isolation::Root;
 use crate::problem::LinearizationError;
 use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
-use crate::real_roots::{decimal, real_roots};
+use crate::real_roots::{decimal, real_roots, sign_of};
+use crate::steady::closed;
 use crate::witness::RunsBeside;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::SteadyMotion;
-use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::factors::{coefficients, irreducible_factors};
+use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use dashu_ratio::RBig;
-use std::cell::OnceCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::any::{Any, TypeId};
+use std::cell::{OnceCell, RefCell};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
 /// What is known of a statement at a value of the parameter, or throughout an interval.
@@ -41,6 +47,10 @@ pub(crate) struct About<'a> {
     pub(crate) expansion: Expansion<'a>,
     pub(crate) question: Question,
     bundles: OnceCell<Vec<Bundle>>,
+    /// Those for general values of a parameter, at this value of it.
+    inherited: Vec<Bundle>,
+    /// What theorems need, each by its type.
+    known: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
 }
 
 impl<'a> About<'a> {
@@ -61,11 +71,50 @@ impl<'a> About<'a> {
             question: question.clone(),
             expansion,
             bundles: OnceCell::new(),
+            inherited: Vec::new(),
+            known: RefCell::default(),
         })
     }
 
     pub(crate) fn graph(&self) -> &Graph {
         &self.expansion.system.graph
+    }
+
+    /// Combinations of integrals that are known in finite terms, those for general values of a parameter among them.
+    pub(crate) fn finite_bundles(&self, known: &[Jet]) -> Vec<Bundle> {
+        let mut found = bundles(self.graph(), known, self.expansion.variables().len());
+        let mut inherited = self.inherited.iter();
+        let is_known = inherited.all(|own| own.weights.len() == known.len());
+        if is_known {
+            found.extend(self.inherited.iter().cloned());
+        }
+        found
+    }
+
+    /// The combinations of integrals that are known in finite terms at a value of the parameter that was left in.
+    fn bundles_at(&self, (symbol, at): (Symbol, Expr)) -> Vec<Bundle> {
+        let g = self.graph();
+        let known = self.expansion.integrals();
+        let found = bundles(g, &known, self.expansion.variables().len());
+        let value = (g.symbol_expr(symbol), at);
+        let is_finite =
+            |e: &Expr| sign_of(g, g.substitute(*e, &[value])).is_some_and(|s| s != Ordering::Equal);
+        let of_known = found
+            .iter()
+            .filter(|own| own.weights.len() == known.len() && own.nonzero.iter().all(is_finite));
+        of_known.map(|own| own.at(g, value)).collect()
+    }
+
+    /// What a theorem needs, made when it is first asked for.
+    pub(crate) fn once<T: 'static>(&self, make: impl FnOnce() -> T) -> Rc<T> {
+        let place = TypeId::of::<T>();
+        let known = self.known.borrow().get(&place).cloned();
+        if let Some(Ok(found)) = known.map(Rc::downcast::<T>) {
+            return found;
+        }
+        let made = Rc::new(make());
+        self.known.borrow_mut().insert(place, made.clone());
+        made
     }
 
     /// Combinations of integrals that may be Lyapunov functions.
@@ -100,6 +149,45 @@ pub(crate) fn about<'a>(
     })
 }
 
+/// The zero in an enclosure in closed form, where it is rational or one of these functions has a factor of second degree that vanishes there.
+fn closed_form(g: &Graph, (symbol, root): (Symbol, &Root), functions: &[Expr]) -> Option<Expr> {
+    if root.low == root.high {
+        return Some(g.number(root.low.clone()));
+    }
+    let precision = Precision::new(BITS);
+    let is_inside = |e: &Expr| {
+        let found = g.enclose(&[*e], &precision, &|_| None).ok();
+        found.is_some_and(|found| {
+            let [low, high] = [&root.low, &root.high].map(|end| precision.rational(end));
+            let above = |a: &Ball, b: &Ball| {
+                let change = precision.sub(a, b).ok();
+                change.and_then(|own| own.sign()) == Some(Ordering::Greater)
+            };
+            above(&found[0], &low) && above(&high, &found[0])
+        })
+    };
+    let of = |&e: &Expr| -> Option<Expr> {
+        let parts = irreducible_factors(g, e, &[symbol])?;
+        let mut zeros = parts.into_iter().filter_map(|(part, _)| {
+            let list = coefficients(g, part, symbol)?;
+            let &[c, b, a] = list.as_slice() else {
+                return None;
+            };
+            let discriminant = g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c]));
+            let zero = |sign: i64| {
+                let above = g.sub(g.mul(&[g.integer(sign), g.sqrt(discriminant)]), b);
+                closed(g, g.div(above, g.mul(&[g.integer(2), a])))
+            };
+            [1, -1].map(zero).into_iter().find(is_inside)
+        });
+        zeros.next()
+    };
+    functions.iter().find_map(of)
+}
+
+/// Bits of the enclosures of zeros in closed form.
+const BITS: usize = 256;
+
 /// A statement on the stability of a motion.
 pub(crate) trait Statement {
     /// The id of the claim.
@@ -130,9 +218,9 @@ pub(crate) trait Statement {
         None
     }
 
-    /// Whether it is proved for all values of the parameter in an enclosure of such a value.
-    fn holds_throughout(&self, _: &About<'_>, _: &Root) -> bool {
-        false
+    /// What is known of it at such a value, beyond what is known beside it.
+    fn at_boundary(&self, _: &About<'_>, _: &Boundary) -> Option<bool> {
+        None
     }
 
     /// What contradicts it, at a value of the parameter.
@@ -283,7 +371,7 @@ impl Pieces {
         let low = -bound.clone();
         let ranges = question.ranges(g, &low, &bound)?;
         let mut cuts = Vec::new();
-        for e in further {
+        for &e in &further {
             cuts.extend(real_roots(g, e, symbol, &low, &bound)?);
         }
         let mut own = Pieces {
@@ -293,7 +381,8 @@ impl Pieces {
             borders: Vec::new(),
         };
         own.cut(about, statement, &ranges, cuts);
-        own.decide_borders(cx, about, statement, (symbol, &ranges));
+        let functions = [question.boundary_functions(g), further].concat();
+        own.decide_borders(cx, about, statement, (symbol, &ranges, &functions));
         Some(own)
     }
 
@@ -347,11 +436,12 @@ impl Pieces {
         cx: &Context<'_>,
         about: &About<'_>,
         statement: &dyn Statement,
-        (symbol, ranges): (Symbol, &Ranges),
+        (symbol, ranges, functions): (Symbol, &Ranges, &[Expr]),
     ) {
         let (motion, system) = (about.expansion.motion, about.expansion.system);
-        let exactly = |at: &RBig| -> Option<bool> {
-            let there = About::new(cx, motion, &values_at(system, symbol, at), None).ok()?;
+        let exactly = |at: Expr| -> Option<bool> {
+            let mut there = About::new(cx, motion, &values_at(system, symbol, at), None).ok()?;
+            there.inherited = about.bundles_at((symbol, at));
             let place = there.question.place_at(there.graph(), None)?;
             match statement.said(&there, place, None) {
                 Said::Holds(_) => Some(true),
@@ -361,12 +451,19 @@ impl Pieces {
         };
         for border in &mut self.borders {
             let root = &border.root;
-            if root.low == root.high && !exists(about, &values_at(system, symbol, &root.low)) {
+            let exact = closed_form(about.graph(), (symbol, root), functions);
+            if exact.is_some_and(|at| !exists(about, &values_at(system, symbol, at))) {
                 (border.holds, border.is_absent) = (Some(true), true);
                 continue;
             }
-            if statement.holds_throughout(about, root) {
-                border.holds = Some(true);
+            let of_spectrum = ranges.boundaries.iter().find(|own| own.root == *root);
+            let boundary = of_spectrum.cloned().unwrap_or_else(|| Boundary {
+                root: root.clone(),
+                // All eigenvalues are as they are beside it.
+                crossing: Crossing::Touching,
+            });
+            border.holds = statement.at_boundary(about, &boundary);
+            if border.holds.is_some() {
                 continue;
             }
             let holds = |piece: &Piece| {
@@ -379,10 +476,8 @@ impl Pieces {
             let mut own = ranges.boundaries.iter().filter(meets);
             let is_finite = own.all(|b| b.crossing != Crossing::Infinity);
             let beside = is_finite && self.pieces.iter().any(holds);
-            border.holds = match statement.at_border(beside) {
-                None if root.low == root.high => exactly(&root.low),
-                known => known,
-            };
+            let known = statement.at_border(beside);
+            border.holds = known.or_else(|| exactly(exact?));
         }
     }
 

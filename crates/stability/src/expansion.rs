@@ -222,6 +222,15 @@ impl<'a> Expansion<'a> {
         coordinates.chain(speeds.map(|p| p.symbol)).collect()
     }
 
+    /// The name of the variable at a place.
+    pub(crate) fn name_of(&self, place: usize, symbol: Symbol) -> String {
+        let speed = place.checked_sub(self.own.coordinates.len());
+        match speed.and_then(|at| self.own.characteristics.parameters.get(at)) {
+            Some(speed) => speed.name.clone(),
+            None => self.graph().symbol_text(symbol),
+        }
+    }
+
     /// The finite constraints without ignorable coordinates. One that contains an ignorable coordinate only says where that is.
     pub(crate) fn finite(&self) -> Vec<Expr> {
         let g = self.graph();

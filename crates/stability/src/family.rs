@@ -42,7 +42,7 @@ impl Expansion<'_> {
     }
 
     /// Whether all motions whose variables differ by combinations of these vectors are steady and admissible.
-    fn is_steady_along(&self, vectors: &[Vec<Expr>]) -> bool {
+    pub(crate) fn is_steady_along(&self, vectors: &[Vec<Expr>]) -> bool {
         let g = self.graph();
         let symbols: Vec<Expr> = self
             .variables()
@@ -110,7 +110,7 @@ impl Expansion<'_> {
     }
 
     /// The finite constraints with their gradients by the variables at the motion.
-    fn finite_equations(&self) -> Vec<(Expr, Vec<Expr>)> {
+    pub(crate) fn finite_equations(&self) -> Vec<(Expr, Vec<Expr>)> {
         let g = self.graph();
         let variables = self.variables();
         let gradient = |e: Expr| self.at(&g.gradient(e, &variables));
@@ -120,7 +120,7 @@ impl Expansion<'_> {
 }
 
 /// The first rows that are independent of those before them, each with a column that it can be solved for.
-fn independent_rows(g: &Graph, rows: &[Vec<Expr>]) -> Vec<(usize, usize)> {
+pub(crate) fn independent_rows(g: &Graph, rows: &[Vec<Expr>]) -> Vec<(usize, usize)> {
     let mut kept: Vec<(usize, usize, Vec<Expr>)> = Vec::new();
     for (place, row) in rows.iter().enumerate() {
         let mut row = row.clone();

@@ -28,6 +28,8 @@ pub struct Jet {
     pub hessian: Vec<Vec<Expr>>,
     /// Whether it is no integral, and never grows along any motion.
     pub falls: bool,
+    /// It as a function of the variables, where it is known in finite terms.
+    pub value: Option<Expr>,
 }
 
 impl Expansion<'_> {
@@ -40,7 +42,7 @@ impl Expansion<'_> {
         let products = momenta.iter().zip(&velocities);
         let products: Vec<Expr> = products.map(|(&p, &v)| g.mul(&[p, v])).collect();
         let energy = g.sub(g.add(&products), system.lagrangian);
-        let mut candidates = vec![("the energy".to_owned(), energy)];
+        let mut candidates = vec![(ENERGY.to_owned(), energy)];
         for j in self.own.ignorable(system) {
             let name = format!("the momentum of {}", system.coordinates[j].name);
             candidates.push((name, momenta[j]));
@@ -69,7 +71,7 @@ impl Expansion<'_> {
             }
         }
         let finite = self.finite().into_iter();
-        found.extend(finite.map(|e| self.jet("a finite constraint".into(), e)));
+        found.extend(finite.map(|e| self.jet(crate::levels::FINITE.into(), e)));
         found
     }
 
@@ -133,7 +135,7 @@ impl Expansion<'_> {
     }
 
     /// Whether functions of the variables are proved to vanish on the constraints.
-    fn vanish(&self, es: &[Expr]) -> bool {
+    pub(crate) fn vanish(&self, es: &[Expr]) -> bool {
         let g = self.graph();
         let assumptions = assumptions(self.system);
         let mut implicit = self.own.characteristics.manifold.implicit.clone();
@@ -162,6 +164,7 @@ impl Expansion<'_> {
             name,
             gradient: self.at(&first),
             falls: false,
+            value: Some(e),
             hessian: first
                 .iter()
                 .map(|&e| self.at(&self.derivatives(e)))
@@ -210,6 +213,9 @@ impl Expansion<'_> {
         (!own.rest.is_empty() && own.is_flat(self, &of_rest)).then_some(own)
     }
 }
+
+/// What the energy is called among integrals.
+pub(crate) const ENERGY: &str = "the energy";
 
 /// Forms in more variables are not looked at: 2ⁿ minors.
 const LARGEST: usize = 8;
@@ -311,6 +317,7 @@ impl Transport {
                 gradient,
                 hessian,
                 falls: false,
+                value: None,
             });
         }
         found

@@ -13,12 +13,15 @@
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
 //!    [`real_roots`]; [`question`] puts it together.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
+//!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
+//!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`.
 //!    [`witness`]: runs beside it as a witness where nothing is decided.
 //! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots;
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
 mod branch;
+mod branching;
 pub mod bundle;
 pub mod characteristic;
 pub mod claims;
@@ -32,8 +35,12 @@ pub mod guess;
 pub mod hurwitz;
 pub mod integrals;
 pub mod isolation;
+mod levels;
 pub mod linearization;
+mod lines;
+mod methods;
 pub mod multiplicity;
+mod neighbourhood;
 pub mod parts;
 pub mod problem;
 pub mod question;

@@ -104,12 +104,22 @@ impl Question {
 
     /// A number beyond which, on both sides, nothing changes any more: Cauchy's bound of the zeros of all determinants.
     pub fn bound(&self, g: &Graph) -> Option<RBig> {
-        let mut all = vec![*self.polynomial.as_ref()?.coefficients.last()?];
+        self.polynomial.as_ref()?;
+        bound_of(g, &self.boundary_functions(g), self.over?)
+    }
+
+    /// The functions of the parameter that was left in at whose zeros eigenvalues may pass the axis, or go to infinity.
+    pub(crate) fn boundary_functions(&self, g: &Graph) -> Vec<Expr> {
+        let polynomial = self.polynomial.iter();
+        let mut all: Vec<Expr> = polynomial
+            .filter_map(|own| own.coefficients.last().copied())
+            .collect();
         for own in self.deciding(g) {
             all.extend(determinants(g, &own.coefficients));
-            all.extend([*own.coefficients.first()?, *own.coefficients.last()?]);
+            all.extend(own.coefficients.first());
+            all.extend(own.coefficients.last());
         }
-        bound_of(g, &all, self.over?)
+        all
     }
 
     /// What the eigenvalues do, at a value of the parameter that was left in, if one was; `None` where that was not decided.
@@ -224,9 +234,9 @@ fn expanded(system: &System, e: Expr) -> Expr {
 }
 
 /// The values of all parameters with a value for one of them, and with what follows for those that are defined by it.
-pub fn values_at(system: &System, over: Symbol, at: &RBig) -> Vec<(Expr, Expr)> {
+pub fn values_at(system: &System, over: Symbol, at: Expr) -> Vec<(Expr, Expr)> {
     let g = &system.graph;
-    let own = (g.symbol_expr(over), g.number(at.clone()));
+    let own = (g.symbol_expr(over), at);
     let others = values_but(system, Some(over)).into_iter();
     let others = others.map(|(symbol, value)| (symbol, g.substitute(value, &[own])));
     others.chain([own]).collect()

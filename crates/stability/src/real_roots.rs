@@ -55,6 +55,21 @@ pub fn sign_at(g: &Graph, e: Expr, symbol: Symbol, at: &RBig) -> Option<Ordering
     sign_of(g, g.substitute(e, &[value]))
 }
 
+/// Decimal bounds of a number, at a value of a symbol if one is given; `None` where it is not enclosed.
+pub(crate) fn bounds_at(
+    g: &Graph,
+    e: Expr,
+    at: Option<(Symbol, &RBig)>,
+) -> Option<(String, String)> {
+    let value = at.map(|(symbol, at)| (g.symbol_expr(symbol), g.number(at.clone())));
+    let e = value.map_or(e, |value| g.substitute(e, &[value]));
+    let found = g
+        .enclose(&[e], &Precision::new(BITS), &|_| None)
+        .ok()?
+        .pop()?;
+    Some(found.to_decimal_interval(20))
+}
+
 /// The sign of `e` for all values of `symbol` in an enclosure; `None` where it is not one.
 pub fn sign_over(g: &Graph, e: Expr, symbol: Symbol, root: &Root) -> Option<Ordering> {
     let over = ball(&root.low, &root.high);
@@ -155,7 +170,7 @@ fn point(at: &RBig) -> Ball {
 }
 
 /// The smallest ball about the middle that holds an interval.
-fn ball(low: &RBig, high: &RBig) -> Ball {
+pub(crate) fn ball(low: &RBig, high: &RBig) -> Ball {
     let precision = Precision::new(BITS);
     let union = precision.union(&point(low), &point(high));
     union.unwrap_or_else(|_| point(low))

@@ -133,23 +133,42 @@ fn affine_solution(g: &Graph, equations: &[Expr], unknowns: &[Symbol]) -> Option
         .map(|&s| (g.symbol_expr(s), g.zero()))
         .collect();
     let constant = g.substitute_all(equations, &vanishing);
-    let rows = matrix.into_iter().zip(constant);
-    let mut rows: Vec<Vec<Expr>> = rows
-        .map(|(mut row, c)| {
-            row.push(g.neg(c));
-            row.iter().map(|&e| closed(g, e)).collect()
-        })
+    let right: Vec<Expr> = constant.into_iter().map(|c| g.neg(c)).collect();
+    Some(solution(g, (&matrix, unknowns.len()), &right)?.values)
+}
+
+/// A solution of linear equations.
+pub(crate) struct Solved {
+    /// The unknowns, those that are free being zero.
+    pub(crate) values: Vec<Expr>,
+    /// What was divided by.
+    pub(crate) divisors: Vec<Expr>,
+}
+
+/// A solution of `A x = b` with so many unknowns; `None` where there is none.
+pub(crate) fn solution(
+    g: &Graph,
+    (matrix, count): (&[Vec<Expr>], usize),
+    right: &[Expr],
+) -> Option<Solved> {
+    let mut rows: Vec<Vec<Expr>> = matrix
+        .iter()
+        .zip(right)
+        .map(|(row, &b)| row.iter().chain([&b]).map(|&e| closed(g, e)).collect())
         .collect();
-    let pivots = echelon(g, &mut rows, unknowns.len()).columns;
-    let is_contradiction = |row: &Vec<Expr>| !g.is_zero(row[unknowns.len()]);
-    if rows[pivots.len()..].iter().any(is_contradiction) {
+    let pivots = echelon(g, &mut rows, count);
+    let is_contradiction = |row: &Vec<Expr>| !g.is_zero(row[count]);
+    if rows[pivots.columns.len()..].iter().any(is_contradiction) {
         return None;
     }
-    let mut solution = vec![g.zero(); unknowns.len()];
-    for (row, &column) in rows.iter().zip(&pivots) {
-        solution[column] = row[unknowns.len()];
+    let mut values = vec![g.zero(); count];
+    for (row, &column) in rows.iter().zip(&pivots.columns) {
+        values[column] = row[count];
     }
-    Some(solution)
+    Some(Solved {
+        values,
+        divisors: pivots.values,
+    })
 }
 
 /// What an elimination divided by.

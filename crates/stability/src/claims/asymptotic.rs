@@ -2,6 +2,7 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::evidence::{counted, unstable};
+use crate::multiplicity::defects;
 use crate::question::Place;
 use chetaev_symbolic::verdict::Counterexample;
 use dashu_ratio::RBig;
@@ -34,7 +35,7 @@ impl Statement for Asymptotic {
                 "all eigenvalues are zeros of the family of steady motions; there is no other".into(),
             ),
             Place::Left => Said::Holds("Hurwitz's determinants are all positive".into()),
-            Place::OnAxis if question.spectrum.paired.is_none() && further > 0 => Said::Open(
+            Place::OnAxis if question.spectrum.paired.is_none() && further > 0 && !is_chain(about) => Said::Open(
                 "an eigenvalue is zero and belongs to no family of steady motions that was found: the linear equations decide nothing".into(),
             ),
             _ => Said::Fails,
@@ -55,6 +56,11 @@ impl Statement for Asymptotic {
                 1,
                 format!("{motion} have an eigenvalue on the axis, or two that are mirror images of each other"),
             ),
+            _ if paired.is_none() => counted(
+                "the number of zero eigenvalues beside those of the family is",
+                1,
+                format!("{motion} have the eigenvalue 0 more often than it has eigenvectors, which the family of steady motions cannot exceed"),
+            ),
             _ => counted(
                 "the number of eigenvalues on the imaginary axis, but zero",
                 paired.map_or(0, |own| own.len() - 1),
@@ -62,4 +68,11 @@ impl Statement for Asymptotic {
             ),
         }
     }
+}
+
+/// Whether zero has fewer eigenvectors than its multiplicity, and as many as the family has dimensions.
+fn is_chain(about: &About<'_>) -> bool {
+    let found = defects(about.graph(), &about.question, None).unwrap_or_default();
+    let mut of_zero = found.iter().filter(|own| own.factor.is_none());
+    of_zero.any(|own| own.chains == about.question.linear.family)
 }

@@ -1,10 +1,9 @@
 //! The motion itself is stable.
 
 use crate::decision::{About, Said, Statement};
-use crate::evidence::unstable;
-use crate::isolation::Root;
+use crate::hurwitz::Boundary;
+use crate::methods::{Answer, Instability, METHODS};
 use crate::question::Place;
-use crate::real_roots::sign_over;
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
@@ -27,26 +26,19 @@ impl Statement for Nonlinear {
     }
 
     fn said(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Said {
-        let (g, question) = (about.graph(), &about.question);
-        if place == Place::Right {
-            return Said::Fails;
+        let mut open = Vec::new();
+        for method in METHODS {
+            match method.answer(about, place, at) {
+                Answer::Stable(why) => return Said::Holds(why),
+                Answer::Unstable(_) => return Said::Fails,
+                Answer::Open(why) => open.push(why),
+                Answer::NotApplicable => {}
+            }
         }
-        if place == Place::Left {
-            return Said::Holds(by_eigenvalues(question.linear.family));
-        }
-        let sign = |e: Expr| question.sign(g, e, at);
-        let mut bundles = about.bundles().iter();
-        match bundles.find(|own| own.is_definite(&sign)) {
-            Some(own) => Said::Holds(format!("by integrals as a Lyapunov function (Routh, Chetaev): with {}, whose first variation vanishes, the second is definite where no integral changes, by Sylvester's criterion", own.text)),
-            None => Said::Open(format!(
-                "the linear equations decide nothing where eigenvalues lie on the axis, and {}",
-                match about.bundles() {
-                    [] => "no combination of integrals that were found has a vanishing first variation".to_owned(),
-                    [own] => format!("the second variation of the only combination of integrals without a first one is not definite: {}", own.text),
-                    list => format!("none of {} combinations of integrals without a first variation has a definite second one", list.len()),
-                }
-            )),
-        }
+        Said::Open(format!(
+            "the linear equations decide nothing where eigenvalues lie on the axis, and {}",
+            open.join("; ")
+        ))
     }
 
     fn is_witnessed(&self) -> bool {
@@ -54,35 +46,41 @@ impl Statement for Nonlinear {
     }
 
     fn further(&self, about: &About<'_>) -> Vec<Expr> {
-        // Where all eigenvalues lie left of the axis integrals are not needed.
+        // Where all eigenvalues lie left of the axis nothing else is needed.
         match about.question.place(true) {
             Place::Left => Vec::new(),
-            _ => about
-                .bundles()
+            _ => METHODS
                 .iter()
-                .flat_map(|own| own.functions().collect::<Vec<_>>())
+                .flat_map(|own| own.functions(about))
                 .collect(),
         }
     }
 
-    fn holds_throughout(&self, about: &About<'_>, root: &Root) -> bool {
-        let Some(symbol) = about.question.over else {
-            return false;
-        };
-        // The value is a zero of some function of some combination, perhaps of none that is needed.
-        let sign = |e: Expr| sign_over(about.graph(), e, symbol, root);
-        about.bundles().iter().any(|own| own.is_definite(&sign))
+    fn at_boundary(&self, about: &About<'_>, boundary: &Boundary) -> Option<bool> {
+        let mut answers = METHODS.iter().map(|own| own.at_boundary(about, boundary));
+        answers.find_map(|own| match own {
+            Answer::Stable(_) => Some(true),
+            Answer::Unstable(_) => Some(false),
+            Answer::Open(_) | Answer::NotApplicable => None,
+        })
     }
 
-    fn counterexample(&self, about: &About<'_>, _: Place, at: Option<&RBig>) -> Counterexample {
-        unstable(about, at)
-    }
-}
-
-/// What follows where all transversal eigenvalues lie left of the axis.
-fn by_eigenvalues(family: usize) -> String {
-    match family {
-        0 => "by Lyapunov's first method: all eigenvalues lie left of the axis, and the motion is asymptotically stable".into(),
-        n => format!("by the theorem of Lyapunov and Malkin: all eigenvalues but the {n} of the family of steady motions lie left of the axis, so that the motion is stable and its neighbours tend to members of the family"),
+    fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample {
+        let mut answers = METHODS.iter().map(|own| own.answer(about, place, at));
+        let found = answers.find_map(|own| match own {
+            Answer::Unstable(found) => Some(found),
+            _ => None,
+        });
+        let Instability {
+            quantity,
+            bounds,
+            why,
+        } = found.unwrap_or_default();
+        Counterexample {
+            point: Vec::new(),
+            quantity,
+            residual: bounds,
+            detail: why,
+        }
     }
 }

@@ -4,4 +4,5 @@
 mod common;
 mod reference;
 mod steady_set;
+mod theorems;
 mod verdicts;

@@ -1,0 +1,30 @@
+//! Lyapunov's first method (Lyapunov 1892), and the theorem of Lyapunov and Malkin on families of steady motions (Malkin 1952).
+
+use super::{Answer, Instability, Method};
+use crate::decision::About;
+use crate::evidence::unstable;
+use crate::question::Place;
+use dashu_ratio::RBig;
+
+/// Eigenvalues decide where one lies right of the axis, or all but those of the family lie left of it.
+pub(crate) struct FirstApproximation;
+
+impl Method for FirstApproximation {
+    fn answer(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Answer {
+        match place {
+            Place::Right => {
+                let found = unstable(about, at);
+                Answer::Unstable(Instability {
+                    quantity: found.quantity,
+                    bounds: found.residual,
+                    why: found.detail,
+                })
+            }
+            Place::Left => Answer::Stable(match about.question.linear.family {
+                0 => "by Lyapunov's first method: all eigenvalues lie left of the axis, and the motion is asymptotically stable".into(),
+                n => format!("by the theorem of Lyapunov and Malkin: all eigenvalues but the {n} of the family of steady motions lie left of the axis, so that the motion is stable and its neighbours tend to members of the family"),
+            }),
+            Place::OnAxis | Place::NotLeft => Answer::NotApplicable,
+        }
+    }
+}
