@@ -5,6 +5,7 @@
 //! Newton's method; so the curve that is followed is transversal to the family, and no eigenvalue zero of it hides a bifurcation.
 
 use crate::error::OrbitError;
+use crate::hopf::WithoutLyapunov;
 use crate::multipliers::Spectrum;
 use crate::subspace::{damped, kernel, least_squares, nullity};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -70,8 +71,8 @@ pub enum Kind {
     Hopf {
         /// ω.
         frequency: f64,
-        /// The first Lyapunov coefficient, where it is defined.
-        first_lyapunov: Option<f64>,
+        /// The first Lyapunov coefficient, or why there is none.
+        first_lyapunov: Result<f64, WithoutLyapunov>,
     },
     /// A multiplier passes −1.
     PeriodDoubling,

@@ -149,14 +149,10 @@ impl Equations for Equilibria<'_> {
             return Ok(None);
         };
         self.set(x, p)?;
-        let first_lyapunov = if spectrum.trivial.is_empty() {
-            first_lyapunov(self.flow, (x, &self.values), &self.slopes())
-        } else {
-            None
-        };
+        let found = first_lyapunov(self.flow, (x, &self.values), &self.slopes());
         Ok(Some(Kind::Hopf {
             frequency: pair.im,
-            first_lyapunov: first_lyapunov.map(|own| own.coefficient),
+            first_lyapunov: found.map(|own| own.coefficient),
         }))
     }
 }

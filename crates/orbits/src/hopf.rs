@@ -3,10 +3,15 @@
 //! `l₁ = Re c₁/ω`, `c₁ = ½ ⟨p, C(q, q, q̄) − 2 B(q, A⁻¹ B(q, q̄)) + B(q̄, (2iω − A)⁻¹ B(q, q))⟩` with `A q = iω q`, `Aᵀ p = −iω p`,
 //! `⟨q, q⟩ = 1`, `⟨p, q⟩ = 1`; B and C are the second and third derivatives of f. They are taken along straight lines only, and polarized
 //! (Kuznetsov 2004, § 10.2): the exact derivatives of f along a line stay small where those by all variables do not.
+//!
+//! Zeros beside the pair belong to a family of steady motions or to finite constraints. Where as many integrals F with independent gradients take
+//! them out, the coefficient is that of the levels of these: `A h = −B(q, q̄)` is solved by h with `F' h = −F''(q, q̄)`, for motions
+//! that stay on the level. In a family of one dimension without an integral oscillations drift along it instead: with `w' = (iω + α y) w + …` and
+//! `y' = e |w|² + …` the sign of α e decides (Fiedler, Liebscher, Alexander 2000, J. Differential Equations 167).
 
 use crate::flow::Flow;
 use crate::multipliers::eigenvalues;
-use crate::subspace::decomposed;
+use crate::subspace::{kernel, least_squares, nullity};
 use chetaev_symbolic::{Expr, Symbol};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -17,6 +22,33 @@ pub struct FirstLyapunov {
     pub frequency: f64,
     /// l₁: negative, and stable orbits are born where the motion loses its stability; positive, and unstable ones vanish there.
     pub coefficient: f64,
+}
+
+/// Why there is no first Lyapunov coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum WithoutLyapunov {
+    /// No pair.
+    #[error(
+        "the first Lyapunov coefficient was not computed: no pair of eigenvalues is imaginary"
+    )]
+    NoPair,
+    /// A derivative has no value.
+    #[error("the first Lyapunov coefficient was not computed: the equations have no explicit form with three derivatives there")]
+    NoDerivatives,
+    /// Zeros beside the pair that no integral takes out.
+    #[error("the first Lyapunov coefficient is not defined: {zeros} zero eigenvalues stand beside the pair, and integrals take out {levels} of them")]
+    Zeros {
+        /// How many.
+        zeros: usize,
+        /// How many integrals and finite constraints were found.
+        levels: usize,
+    },
+    /// A family without an integral.
+    #[error("the first Lyapunov coefficient is not defined: the motion belongs to a family of steady motions, and no integral that is known tells its members apart; oscillations drift along the family to where they {}", if *product > 0.0 { "grow: motions leave (Fiedler, Liebscher, Alexander)" } else { "die away (Fiedler, Liebscher, Alexander)" })]
+    Drifts {
+        /// α e.
+        product: f64,
+    },
 }
 
 type ComplexVector = DVector<Complex<f64>>;
@@ -88,47 +120,191 @@ impl<'f> Lines<'f> {
     }
 }
 
-/// The first Lyapunov coefficient of the pair nearest to the axis at a steady motion; `slopes` is ∂f/∂z there. `None` where there is no pair, or
-/// the matrix has the eigenvalue zero.
+/// The first Lyapunov coefficient of the pair nearest to the axis at a steady motion, on the levels of integrals where a family stands beside the
+/// pair; `slopes` is ∂f/∂z there.
+///
+/// # Errors
+/// [`WithoutLyapunov`] where there is none.
 pub fn first_lyapunov(
     flow: &Flow,
     at: (&[f64], &[f64]),
     slopes: &DMatrix<f64>,
-) -> Option<FirstLyapunov> {
-    let all = eigenvalues(slopes).ok()?;
-    let pairs = all.iter().filter(|l| l.im > 0.0);
-    let omega = pairs.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()))?.im;
-    let complex = slopes.map(|x| Complex::new(x, 0.0));
-    let n = slopes.nrows();
-    let minus = |factor: f64, m: &DMatrix<Complex<f64>>| {
-        m - DMatrix::identity(n, n) * Complex::new(0.0, factor * omega)
-    };
-    let q = null_vector(&minus(1.0, &complex))?;
-    let p = null_vector(&minus(-1.0, &complex.transpose()))?;
-    // ⟨p, q⟩ = Σ p̄ q.
-    let product = p.dotc(&q);
-    let p = p / product.conj();
+) -> Result<FirstLyapunov, WithoutLyapunov> {
+    let pair = Pair::nearest(slopes).ok_or(WithoutLyapunov::NoPair)?;
     let lines = Lines::new(flow, at);
-    let (a, b) = (q.map(|z| z.re), q.map(|z| z.im));
-    let real = lines.value(&lines.third, &a)? + lines.thrice(&b, &a)?;
-    let imaginary = lines.thrice(&a, &b)? + lines.value(&lines.third, &b)?;
-    let cubic = real.zip_map(&imaginary, Complex::new);
-    let conjugate = q.conjugate();
-    let constant = complex
-        .clone()
-        .lu()
-        .solve(&lines.complex(&q, &conjugate)?)?;
-    let doubled = (-minus(2.0, &complex))
-        .lu()
-        .solve(&lines.complex(&q, &q)?)?;
-    let sum = cubic - lines.complex(&q, &constant)? * Complex::new(2.0, 0.0)
-        + lines.complex(&conjugate, &doubled)?;
-    let coefficient = 0.5 * p.dotc(&sum).re / omega;
-    let is_regular = decomposed(slopes)?.s.last()? > &(1e-10 * slopes.norm());
-    (coefficient.is_finite() && is_regular).then_some(FirstLyapunov {
-        frequency: omega,
-        coefficient,
+    let zeros = nullity(slopes, ZERO);
+    let levels = Level::of(flow, at);
+    if levels.len() < zeros {
+        let is_line = zeros == 1 && levels.is_empty();
+        let product = is_line.then(|| pair.drift(&lines)).flatten();
+        return Err(match product.filter(|own| own.is_finite() && *own != 0.0) {
+            Some(product) => WithoutLyapunov::Drifts { product },
+            None => WithoutLyapunov::Zeros {
+                zeros,
+                levels: levels.len(),
+            },
+        });
+    }
+    let coefficient = pair.coefficient(&lines, &levels);
+    let coefficient = coefficient.filter(|own| own.is_finite());
+    Ok(FirstLyapunov {
+        frequency: pair.frequency,
+        coefficient: coefficient.ok_or(WithoutLyapunov::NoDerivatives)?,
     })
+}
+
+/// Singular values below this part of the largest are zeros.
+const ZERO: f64 = 1e-10;
+
+/// Gradient and second derivatives of a function that is constant along motions.
+struct Level {
+    gradient: DVector<f64>,
+    second: DMatrix<f64>,
+}
+
+impl Level {
+    /// Finite constraints and integrals with independent gradients: those candidates whose rates vanish beside the motion.
+    fn of(flow: &Flow, (z, parameters): (&[f64], &[f64])) -> Vec<Level> {
+        let g = &flow.graph;
+        let finite = flow.finite.iter().copied();
+        let candidates = finite.chain(flow.conserved.iter().map(|own| own.1));
+        let value = |es: &[Expr], z: &[f64]| {
+            let value = |s: Symbol| {
+                let place = flow.variables.iter().position(|own| *own == s);
+                let parameter = || flow.place(s).map(|i| parameters[i]);
+                place.map(|i| z[i]).or_else(parameter)
+            };
+            g.evaluate_f64(es, &value).ok()
+        };
+        let n = flow.n();
+        let is_constant = |gradient: &[Expr]| {
+            let beside = |k: usize| -> Option<bool> {
+                let step = |i: usize| BESIDE * ((i * 7 + k * 3) as f64).sin();
+                let point: Vec<f64> = (0..n)
+                    .map(|i| z[i] + step(i) * (1.0 + z[i].abs()))
+                    .collect();
+                let (slopes, rates) = (value(gradient, &point)?, value(&flow.rates, &point)?);
+                let terms: Vec<f64> = slopes.iter().zip(&rates).map(|(a, b)| a * b).collect();
+                let size: f64 = terms.iter().map(|x| x.abs()).sum();
+                Some(terms.iter().sum::<f64>().abs() <= CONSTANT * size)
+            };
+            (1..=3).all(|k| beside(k) == Some(true))
+        };
+        let mut found: Vec<Level> = Vec::new();
+        for own in candidates {
+            let by = g.gradient(own, &flow.variables);
+            let second = g.jacobian(&by, &flow.variables).concat();
+            let known = value(&by, z).zip(value(&second, z));
+            let Some((gradient, second)) = known.filter(|_| is_constant(&by)) else {
+                continue;
+            };
+            let level = Level {
+                gradient: DVector::from_vec(gradient),
+                second: DMatrix::from_row_slice(n, n, &second),
+            };
+            let rows: Vec<&Level> = found.iter().chain([&level]).collect();
+            let unit = |own: &Level| own.gradient.norm().max(f64::MIN_POSITIVE);
+            let columns =
+                DMatrix::from_fn(n, rows.len(), |r, c| rows[c].gradient[r] / unit(rows[c]));
+            // What is constant only by its gradient being zero cuts nothing.
+            if nullity(&columns, INDEPENDENT) == 0 && level.gradient.norm() > 0.0 {
+                found.push(level);
+            }
+        }
+        found
+    }
+}
+
+/// How far beside the motion rates are looked at, in parts of its size.
+const BESIDE: f64 = 1e-2;
+/// A rate below this part of its terms vanishes.
+const CONSTANT: f64 = 1e-9;
+/// Gradients nearer to each other depend on each other.
+const INDEPENDENT: f64 = 1e-9;
+
+/// Eigenvectors of the pair.
+struct Pair<'a> {
+    slopes: &'a DMatrix<f64>,
+    frequency: f64,
+    q: ComplexVector,
+    p: ComplexVector,
+}
+
+impl<'a> Pair<'a> {
+    fn nearest(slopes: &'a DMatrix<f64>) -> Option<Pair<'a>> {
+        let all = eigenvalues(slopes).ok()?;
+        let pairs = all.iter().filter(|l| l.im > 0.0);
+        let frequency = pairs.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()))?.im;
+        let complex = slopes.map(|x| Complex::new(x, 0.0));
+        let q = null_vector(&shifted(&complex, frequency))?;
+        let p = null_vector(&shifted(&complex.transpose(), -frequency))?;
+        // ⟨p, q⟩ = Σ p̄ q.
+        let product = p.dotc(&q);
+        Some(Pair {
+            slopes,
+            frequency,
+            p: p / product.conj(),
+            q,
+        })
+    }
+
+    fn coefficient(&self, lines: &Lines<'_>, levels: &[Level]) -> Option<f64> {
+        let q = &self.q;
+        let (a, b) = (q.map(|z| z.re), q.map(|z| z.im));
+        let real = lines.value(&lines.third, &a)? + lines.thrice(&b, &a)?;
+        let imaginary = lines.thrice(&a, &b)? + lines.value(&lines.third, &b)?;
+        let cubic = real.zip_map(&imaginary, Complex::new);
+        let conjugate = q.conjugate();
+        let second = lines.complex(q, &conjugate)?.map(|z| z.re);
+        let constant = self.constant(levels, &second, (&a, &b))?;
+        let constant = constant.map(|x| Complex::new(x, 0.0));
+        let complex = self.slopes.map(|x| Complex::new(x, 0.0));
+        let doubled = (-shifted(&complex, 2.0 * self.frequency)).lu();
+        let doubled = doubled.solve(&lines.complex(q, q)?)?;
+        let sum = cubic
+            + lines.complex(q, &constant)? * Complex::new(2.0, 0.0)
+            + lines.complex(&conjugate, &doubled)?;
+        Some(0.5 * self.p.dotc(&sum).re / self.frequency)
+    }
+
+    /// h with `A h = −B(q, q̄)` on the levels.
+    fn constant(
+        &self,
+        levels: &[Level],
+        second: &DVector<f64>,
+        (a, b): (&DVector<f64>, &DVector<f64>),
+    ) -> Option<DVector<f64>> {
+        let n = self.slopes.nrows();
+        let mut matrix = self.slopes.clone().resize_vertically(n + levels.len(), 0.0);
+        let mut right = (-second).resize_vertically(n + levels.len(), 0.0);
+        let size = self.slopes.norm();
+        for (at, own) in levels.iter().enumerate() {
+            let weight = size / own.gradient.norm();
+            matrix
+                .row_mut(n + at)
+                .copy_from(&(own.gradient.transpose() * weight));
+            let bend = a.dot(&(&own.second * a)) + b.dot(&(&own.second * b));
+            right[n + at] = -bend * weight;
+        }
+        let is_regular = nullity(&matrix, ZERO) == 0;
+        is_regular.then(|| least_squares(&matrix, &right, ZERO))?
+    }
+
+    /// α e along a family of one dimension.
+    fn drift(&self, lines: &Lines<'_>) -> Option<f64> {
+        let tangent = kernel(self.slopes, 1)?.column(0).into_owned();
+        let left = kernel(&self.slopes.transpose(), 1)?.column(0).into_owned();
+        let along = tangent.map(|x| Complex::new(x, 0.0));
+        let growth = self.p.dotc(&lines.complex(&self.q, &along)?).re;
+        let second = lines.complex(&self.q, &self.q.conjugate())?.map(|z| z.re);
+        Some(growth * left.dot(&second) / left.dot(&tangent))
+    }
+}
+
+/// `A − iω`.
+fn shifted(matrix: &DMatrix<Complex<f64>>, frequency: f64) -> DMatrix<Complex<f64>> {
+    let n = matrix.nrows();
+    matrix - DMatrix::identity(n, n) * Complex::new(0.0, frequency)
 }
 
 /// The vector of unit length that a matrix shrinks most.

@@ -17,6 +17,7 @@ use chetaev_symbolic::factors::{coefficients, irreducible_factors};
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use dashu_int::ops::BitTest;
 use dashu_ratio::RBig;
 use std::any::{Any, TypeId};
 use std::cell::{OnceCell, RefCell};
@@ -47,6 +48,8 @@ pub(crate) struct About<'a> {
     pub(crate) expansion: Expansion<'a>,
     pub(crate) question: Question,
     bundles: OnceCell<Vec<Bundle>>,
+    integrals: OnceCell<Vec<Jet>>,
+    transported: OnceCell<Vec<Jet>>,
     /// Those for general values of a parameter, at this value of it.
     inherited: Vec<Bundle>,
     /// What theorems need, each by its type.
@@ -71,6 +74,8 @@ impl<'a> About<'a> {
             question: question.clone(),
             expansion,
             bundles: OnceCell::new(),
+            integrals: OnceCell::new(),
+            transported: OnceCell::new(),
             inherited: Vec::new(),
             known: RefCell::default(),
         })
@@ -94,8 +99,8 @@ impl<'a> About<'a> {
     /// The combinations of integrals that are known in finite terms at a value of the parameter that was left in.
     fn bundles_at(&self, (symbol, at): (Symbol, Expr)) -> Vec<Bundle> {
         let g = self.graph();
-        let known = self.expansion.integrals();
-        let found = bundles(g, &known, self.expansion.variables().len());
+        let known = self.integrals();
+        let found = bundles(g, known, self.expansion.variables().len());
         let value = (g.symbol_expr(symbol), at);
         let is_finite =
             |e: &Expr| sign_of(g, g.substitute(*e, &[value])).is_some_and(|s| s != Ordering::Equal);
@@ -117,16 +122,25 @@ impl<'a> About<'a> {
         made
     }
 
+    /// Integrals that are known in finite terms, and functions that fall.
+    pub(crate) fn integrals(&self) -> &[Jet] {
+        self.integrals.get_or_init(|| self.expansion.integrals())
+    }
+
+    /// Integrals of transport.
+    pub(crate) fn transported(&self) -> &[Jet] {
+        self.transported
+            .get_or_init(|| self.expansion.transported())
+    }
+
     /// Combinations of integrals that may be Lyapunov functions.
     pub(crate) fn bundles(&self) -> &[Bundle] {
         self.bundles.get_or_init(|| {
             let (g, n) = (self.graph(), self.expansion.variables().len());
-            let known = self.expansion.integrals();
-            let mut found = bundles(g, &known, n);
-            let mut transported = self.expansion.transported();
+            let (known, transported) = (self.integrals(), self.transported());
+            let mut found = bundles(g, known, n);
             if !transported.is_empty() {
-                transported.extend(known);
-                found.extend(bundles(g, &transported, n));
+                found.extend(bundles(g, &[transported, known].concat(), n));
             }
             found
         })
@@ -174,6 +188,12 @@ fn closed_form(g: &Graph, (symbol, root): (Symbol, &Root), functions: &[Expr]) -
                 return None;
             };
             let discriminant = g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c]));
+            let is_small = g.as_number(closed(g, discriminant)).is_some_and(|own| {
+                own.numerator().bit_len() + own.denominator().bit_len() <= LARGEST
+            });
+            if !is_small {
+                return None;
+            }
             let zero = |sign: i64| {
                 let above = g.sub(g.mul(&[g.integer(sign), g.sqrt(discriminant)]), b);
                 closed(g, g.div(above, g.mul(&[g.integer(2), a])))
@@ -184,6 +204,9 @@ fn closed_form(g: &Graph, (symbol, root): (Symbol, &Root), functions: &[Expr]) -
     };
     functions.iter().find_map(of)
 }
+
+/// Bits of a discriminant with whose root is computed: with larger ones exact linear algebra takes long.
+const LARGEST: usize = 256;
 
 /// Bits of the enclosures of zeros in closed form.
 const BITS: usize = 256;
@@ -219,8 +242,13 @@ pub(crate) trait Statement {
     }
 
     /// What is known of it at such a value, beyond what is known beside it.
-    fn at_boundary(&self, _: &About<'_>, _: &Boundary) -> Option<bool> {
+    fn at_boundary(&self, _: &About<'_>, _: &Boundary) -> Option<Said> {
         None
+    }
+
+    /// Whether it is asked at such a value where that is known exactly and is not rational.
+    fn looks_at_boundaries(&self) -> bool {
+        false
     }
 
     /// What contradicts it, at a value of the parameter.
@@ -339,8 +367,29 @@ struct Border {
     root: Root,
     /// Whether the statement holds there; `None` where that was not decided.
     holds: Option<bool>,
+    /// Why it holds, where that does not follow from what is beside it.
+    why: Option<String>,
     /// There is no such motion, so that nothing fails.
     is_absent: bool,
+}
+
+impl Border {
+    fn know(&mut self, said: Option<Said>) {
+        match said {
+            Some(Said::Holds(why)) => (self.holds, self.why) = (Some(true), Some(why)),
+            Some(Said::Fails) => self.holds = Some(false),
+            Some(Said::Open(_)) | None => {}
+        }
+    }
+
+    /// Where it is.
+    fn place(&self, name: &str) -> String {
+        if self.root.low == self.root.high {
+            format!("{name} = {}", self.root.low)
+        } else {
+            format!("{name} in {}", self.root.text())
+        }
+    }
 }
 
 /// All values of the parameter in parts.
@@ -425,6 +474,7 @@ impl Pieces {
         let border = |root| Border {
             root,
             holds: None,
+            why: None,
             is_absent: false,
         };
         self.borders = roots.into_iter().map(border).collect();
@@ -439,18 +489,17 @@ impl Pieces {
         (symbol, ranges, functions): (Symbol, &Ranges, &[Expr]),
     ) {
         let (motion, system) = (about.expansion.motion, about.expansion.system);
-        let exactly = |at: Expr| -> Option<bool> {
-            let mut there = About::new(cx, motion, &values_at(system, symbol, at), None).ok()?;
-            there.inherited = about.bundles_at((symbol, at));
-            let place = there.question.place_at(there.graph(), None)?;
-            match statement.said(&there, place, None) {
-                Said::Holds(_) => Some(true),
-                Said::Fails => Some(false),
-                Said::Open(_) => None,
+        let exactly = |at: Expr| -> Option<Said> {
+            let values = values_at(system, symbol, at);
+            let mut there = About::new(cx, motion, &values, None).ok()?;
+            if statement.looks_at_boundaries() {
+                there.inherited = about.bundles_at((symbol, at));
             }
+            let place = there.question.place_at(there.graph(), None)?;
+            Some(statement.said(&there, place, None))
         };
         for border in &mut self.borders {
-            let root = &border.root;
+            let root = &border.root.clone();
             let exact = closed_form(about.graph(), (symbol, root), functions);
             if exact.is_some_and(|at| !exists(about, &values_at(system, symbol, at))) {
                 (border.holds, border.is_absent) = (Some(true), true);
@@ -462,7 +511,7 @@ impl Pieces {
                 // All eigenvalues are as they are beside it.
                 crossing: Crossing::Touching,
             });
-            border.holds = statement.at_boundary(about, &boundary);
+            border.know(statement.at_boundary(about, &boundary));
             if border.holds.is_some() {
                 continue;
             }
@@ -476,8 +525,11 @@ impl Pieces {
             let mut own = ranges.boundaries.iter().filter(meets);
             let is_finite = own.all(|b| b.crossing != Crossing::Infinity);
             let beside = is_finite && self.pieces.iter().any(holds);
-            let known = statement.at_border(beside);
-            border.holds = known.or_else(|| exactly(exact?));
+            border.holds = statement.at_border(beside);
+            let is_rational = root.low == root.high;
+            if border.holds.is_none() && (is_rational || statement.looks_at_boundaries()) {
+                border.know(exact.and_then(exactly));
+            }
         }
     }
 
@@ -490,7 +542,15 @@ impl Pieces {
                 _ => None,
             })
             .collect();
-        let reasons: Vec<&str> = reasons.into_iter().collect();
+        let of_borders = self.borders.iter().filter_map(|own| {
+            let why = own.why.as_deref().filter(|why| !reasons.contains(why));
+            why.map(|why| format!("at {}: {why}", own.place(&self.name)))
+        });
+        let own: Vec<String> = of_borders.collect();
+        let reasons: Vec<&str> = reasons
+            .into_iter()
+            .chain(own.iter().map(String::as_str))
+            .collect();
         let open = self.pieces.iter().find_map(|piece| match &piece.said {
             Said::Open(why) => Some(why),
             _ => None,
@@ -609,13 +669,7 @@ impl Pieces {
     /// Every border with its enclosure, and those at which the statement was not decided.
     fn enclosures(&self) -> String {
         let name = &self.name;
-        let text = |border: &Border| {
-            if border.root.low == border.root.high {
-                format!("{name} = {}", border.root.low)
-            } else {
-                format!("{name} in {}", border.root.text())
-            }
-        };
+        let text = |border: &Border| border.place(name);
         let all: Vec<String> = self.borders.iter().map(text).collect();
         let open: Vec<String> = self
             .borders

@@ -41,6 +41,10 @@ impl Statement for Nonlinear {
         ))
     }
 
+    fn looks_at_boundaries(&self) -> bool {
+        true
+    }
+
     fn is_witnessed(&self) -> bool {
         true
     }
@@ -56,11 +60,11 @@ impl Statement for Nonlinear {
         }
     }
 
-    fn at_boundary(&self, about: &About<'_>, boundary: &Boundary) -> Option<bool> {
+    fn at_boundary(&self, about: &About<'_>, boundary: &Boundary) -> Option<Said> {
         let mut answers = METHODS.iter().map(|own| own.at_boundary(about, boundary));
         answers.find_map(|own| match own {
-            Answer::Stable(_) => Some(true),
-            Answer::Unstable(_) => Some(false),
+            Answer::Stable(why) => Some(Said::Holds(why)),
+            Answer::Unstable(_) => Some(Said::Fails),
             Answer::Open(_) | Answer::NotApplicable => None,
         })
     }

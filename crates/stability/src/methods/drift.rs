@@ -98,7 +98,7 @@ fn running(about: &About<'_>) -> Option<Running> {
     let moves = |chain: &&Vec<Expr>| chain[n..].iter().any(|&e| !g.is_zero(e));
     let chain = chains.iter().find(moves)?;
     let along = |gradient: &[Expr]| times(&[gradient.to_vec()], &chain[..n])[0];
-    let integrals = own.integrals();
+    let integrals = about.integrals();
     let serves = |jet: &&Jet| {
         !jet.falls && !g.is_zero(along(&jet.gradient)) && is_constant(about, jet, &tangents)
     };

@@ -180,10 +180,10 @@ fn degenerate(about: &About<'_>) -> Vec<Degenerate> {
     if !own.own.characteristics.manifold.implicit.is_empty() || !own.is_smooth() {
         return Vec::new();
     }
-    let jets = own.integrals();
-    let levels = Levels::of(own, &jets);
-    let bundles = about.finite_bundles(&jets);
-    let of = |bundle: &Bundle| of_bundle(about, (&jets, &levels), bundle);
+    let jets = about.integrals();
+    let levels = Levels::of(own, jets);
+    let bundles = about.finite_bundles(jets);
+    let of = |bundle: &Bundle| of_bundle(about, (jets, &levels), bundle);
     bundles.iter().filter_map(of).collect()
 }
 

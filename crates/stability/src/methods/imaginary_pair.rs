@@ -45,7 +45,8 @@ impl Method for ImaginaryPair {
     fn at_boundary(&self, about: &About<'_>, boundary: &Boundary) -> Answer {
         match about.question.over {
             Some(symbol) if boundary.crossing == Crossing::Pair => {
-                answer(about, Some((symbol, &boundary.root)))
+                let root = refined(about, symbol, &boundary.root);
+                answer(about, Some((symbol, &root)))
             }
             _ => Answer::NotApplicable,
         }
@@ -57,6 +58,37 @@ fn last_but_one(about: &About<'_>) -> Option<Expr> {
     let polynomial = about.question.polynomial.as_ref()?;
     let list = determinants(about.graph(), &polynomial.coefficients);
     list.len().checked_sub(2).map(|at| list[at])
+}
+
+/// Halvings of the enclosure of a boundary.
+const HALVINGS: usize = 160;
+
+/// A narrower enclosure of a boundary, since what is computed from it is a difference of large numbers: between signs of the last but one of
+/// Hurwitz's determinants that differ.
+fn refined(about: &About<'_>, symbol: Symbol, root: &Root) -> Root {
+    let (g, precision) = (about.graph(), Precision::new(2 * BITS));
+    let mut found = root.clone();
+    let Some(own) = last_but_one(about) else {
+        return found;
+    };
+    let sign = |at: &RBig| {
+        let value = |s: Symbol| (s == symbol).then(|| precision.rational(at));
+        let ball = g.enclose(&[own], &precision, &value).ok()?.pop()?;
+        ball.sign()
+    };
+    let (low, high) = (sign(&found.low), sign(&found.high));
+    if low.is_none() || high.is_none() || low == high {
+        return found;
+    }
+    for _ in 0..HALVINGS {
+        let middle = (&found.low + &found.high) / RBig::from(2);
+        match sign(&middle) {
+            Some(Ordering::Equal) | None => break,
+            own if own == low => found.low = middle,
+            Some(_) => found.high = middle,
+        }
+    }
+    found
 }
 
 /// What decides, enclosed.
@@ -120,9 +152,9 @@ fn deciding(about: &About<'_>, at: Option<(Symbol, &Root)>) -> Option<Deciding> 
     let slopes = lines.slopes()?;
     let pair = Pair::of(&precision, &slopes, &frequency)?;
     let (zeros, finite) = (question.zeros(), own.reduction().dependent.len());
-    let levels = Levels::of(own, &own.integrals());
+    let levels = Levels::of(own, about.integrals());
     let levels = if levels.jets.len() < zeros + finite && finite == 0 {
-        Levels::of(own, &[own.integrals(), own.transported()].concat())
+        Levels::of(own, &[about.integrals(), about.transported()].concat())
     } else {
         levels
     };

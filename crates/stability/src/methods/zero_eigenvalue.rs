@@ -91,7 +91,7 @@ fn critical(about: &About<'_>) -> Option<Critical> {
     if !is_alone || !is_explicit || !own.is_smooth() {
         return None;
     }
-    let levels = Levels::of(own, &own.integrals());
+    let levels = Levels::of(own, about.integrals());
     if levels.jets.len() != zeros - 1 + own.reduction().dependent.len() {
         return None;
     }

@@ -44,6 +44,11 @@ impl Case {
     }
 
     pub(crate) fn gallery(name: &str) -> Case {
+        Case::gallery_with(name, "", "")
+    }
+
+    /// A model of the gallery with one text for another.
+    pub(crate) fn gallery_with(name: &str, own: &str, other: &str) -> Case {
         let path = format!(
             "{}/../../gallery/{name}/model.toml",
             env!("CARGO_MANIFEST_DIR")
@@ -51,7 +56,12 @@ impl Case {
         let text = std::fs::read_to_string(path).unwrap();
         let start = text.find("\nname = ").map_or(0, |at| at + 1);
         let rest = text[start..].split_once('\n').unwrap().1;
-        Case::new(rest)
+        assert!(rest.contains(own), "{name}: {own}");
+        if own.is_empty() {
+            Case::new(rest)
+        } else {
+            Case::new(&rest.replace(own, other))
+        }
     }
 
     pub(crate) fn read(&self, text: &str) -> Expr {

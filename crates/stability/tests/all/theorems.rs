@@ -263,3 +263,23 @@ t1 = 0
     assert_eq!(case.said("stability.nonlinear", "driving"), "refuted");
     assert_eq!(case.said("stability.asymptotic", "driving"), "refuted");
 }
+
+/// A sliding tippe top where its spin becomes unstable: at a given value K of Jellett's integral the energy without sliding is, with y = 1 − cos θ and
+/// R = 1, m g a y + K²/(2 D), D = A (2 y − y²) + C (1 − a − y)²; where its slope at y = 0 vanishes, 2 D'² − D D'' decides (Karapetyan and Kuleshov
+/// 2002). With A = 1.8 and C = 2 that is 2 · 0.4² − 1.28 · 0.4 < 0, with A = 2.4 it is 2 · 1.6² + 1.28 · 0.8 > 0.
+#[test]
+fn the_tippe_top_at_its_threshold() {
+    for (inertia, is_stable) in [("0.0000018", false), ("0.0000024", true)] {
+        let case = Case::gallery_with(
+            "tippe-top",
+            "A = { value = 0.0000018",
+            &format!("A = {{ value = {inertia}"),
+        );
+        let found = case.said("stability.nonlinear", "below");
+        assert!(
+            !detail(&case, "below").contains("nothing is said"),
+            "{inertia}"
+        );
+        assert_eq!(found.contains("<="), is_stable, "{inertia}: {found}");
+    }
+}

@@ -110,10 +110,13 @@ impl Followed {
             Kind::BranchPoint => format!("branch point: {first}, and the curve goes on"),
             Kind::Hopf {
                 frequency,
-                first_lyapunov: Some(own),
+                first_lyapunov: Ok(own),
             } => hopf(frequency, own),
-            Kind::Hopf { frequency, .. } => format!(
-                "Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}"
+            Kind::Hopf {
+                frequency,
+                first_lyapunov: Err(why),
+            } => format!(
+                "Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; {why}"
             ),
             Kind::PeriodDoubling => "period doubling: a multiplier passes -1".into(),
             Kind::Torus { angle } => {
@@ -206,7 +209,10 @@ impl Followed {
                     first_lyapunov,
                 } => {
                     value["frequency"] = json!(frequency);
-                    value["first_lyapunov"] = json!(first_lyapunov);
+                    value["first_lyapunov"] = json!(first_lyapunov.ok());
+                    if let Err(why) = first_lyapunov {
+                        value["undecided"] = json!(why.to_string());
+                    }
                 }
                 Kind::Torus { angle } => value["angle"] = json!(angle),
                 _ => {}

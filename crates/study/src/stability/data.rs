@@ -142,13 +142,16 @@ impl Stability {
         };
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
         let mut found = json!({"parameter": name, "value": middle.to_f64().value(), "enclosure": [low, high], "kind": kind});
-        if let Some(own) = self.first_lyapunov(boundary) {
-            found["frequency"] = json!(own.frequency);
-            found["first_lyapunov"] = json!(own.coefficient);
-        }
-        if let Some(why) = self.without_first_lyapunov(boundary) {
-            found["first_lyapunov"] = Value::Null;
-            found["undecided"] = json!(why);
+        match self.first_lyapunov(boundary) {
+            Some(Ok(own)) => {
+                found["frequency"] = json!(own.frequency);
+                found["first_lyapunov"] = json!(own.coefficient);
+            }
+            Some(Err(why)) => {
+                found["first_lyapunov"] = Value::Null;
+                found["undecided"] = json!(why.to_string());
+            }
+            None => {}
         }
         found
     }

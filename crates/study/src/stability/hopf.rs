@@ -3,32 +3,32 @@
 use super::Stability;
 use chetaev_mechanics::Prepared;
 use chetaev_orbits::flow::Coordinates;
-use chetaev_orbits::hopf::{first_lyapunov, FirstLyapunov};
+use chetaev_orbits::hopf::{first_lyapunov, FirstLyapunov, WithoutLyapunov};
 use chetaev_orbits::Flow;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::question::values_at;
 use chetaev_stability::steady::numbers;
-use chetaev_symbolic::Rational;
+use chetaev_symbolic::{Rational, Symbol};
 
 impl Stability {
-    /// Why there is no first Lyapunov coefficient where a pair passes the axis.
-    pub fn without_first_lyapunov(&self, boundary: &Boundary) -> Option<&'static str> {
-        if boundary.crossing != Crossing::Pair || self.first_lyapunov(boundary).is_some() {
-            return None;
-        }
-        Some(match self.question.linear.family {
-            0 => "the first Lyapunov coefficient was not computed: the equations have no explicit form there, or a zero eigenvalue stands beside the pair",
-            _ => "the first Lyapunov coefficient was not computed: the motion belongs to a family of steady motions, whose zero eigenvalue stands beside the pair, and it is defined without one only",
+    /// What is known of the first Lyapunov coefficient at a boundary, in numbers; `None` where no pair passes there.
+    pub fn first_lyapunov(
+        &self,
+        boundary: &Boundary,
+    ) -> Option<Result<FirstLyapunov, WithoutLyapunov>> {
+        let over = self.question.over?;
+        let is_pair = boundary.crossing == Crossing::Pair;
+        is_pair.then(|| {
+            let found = self.at_pair(over, boundary);
+            found.unwrap_or(Err(WithoutLyapunov::NoDerivatives))
         })
     }
 
-    /// The first Lyapunov coefficient at a boundary, in numbers; `None` where no pair passes there, and where a zero of the family stands beside
-    /// the pair.
-    pub fn first_lyapunov(&self, boundary: &Boundary) -> Option<FirstLyapunov> {
-        let over = self.question.over?;
-        if boundary.crossing != Crossing::Pair || self.question.linear.family > 0 {
-            return None;
-        }
+    fn at_pair(
+        &self,
+        over: Symbol,
+        boundary: &Boundary,
+    ) -> Option<Result<FirstLyapunov, WithoutLyapunov>> {
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
         let system = &self.system;
         let Prepared { terms, selection } = Prepared::new(system).ok()?;
@@ -43,6 +43,6 @@ impl Stability {
         let state = flow.state(&point).ok()?;
         let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
         let slopes = flow.slopes(&state, &parameters)?;
-        first_lyapunov(&flow, (&state, &parameters), &slopes)
+        Some(first_lyapunov(&flow, (&state, &parameters), &slopes))
     }
 }

@@ -256,15 +256,12 @@ impl Stability {
                         boundary.root.text(),
                         self.crossing(boundary)
                     );
-                    if let Some(own) = self.first_lyapunov(boundary) {
-                        let _ = writeln!(
-                            text,
-                            "  {}",
-                            crate::follow::hopf(own.frequency, own.coefficient)
-                        );
-                    }
-                    if let Some(why) = self.without_first_lyapunov(boundary) {
-                        let _ = writeln!(text, "  {why}");
+                    let said = self.first_lyapunov(boundary).map(|found| match found {
+                        Ok(own) => crate::follow::hopf(own.frequency, own.coefficient),
+                        Err(why) => why.to_string(),
+                    });
+                    if let Some(said) = said {
+                        let _ = writeln!(text, "  {said}");
                     }
                 }
             }
