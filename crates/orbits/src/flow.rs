@@ -6,7 +6,7 @@ use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::Turns;
 use chetaev_motion::Binding;
 use chetaev_stability::reduction::{ClosedSystem, Speeds};
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
@@ -120,9 +120,16 @@ impl Flow {
         let finite: Vec<Expr> = finite.map(|own| own.stated).collect();
         let is_closed = |e: &Expr| flow.is_closed(system, *e);
         let finite: Vec<Expr> = plain(&finite).into_iter().filter(is_closed).collect();
+        // Ignorable coordinates may stand in a function that does not depend on them; whether it is constant is looked at where it is used.
+        let others = (0..system.n()).filter(|j| !coordinates.contains(j));
+        let somewhere = g.number(Rational::from_parts_signed(377.into(), 1000.into()));
+        let somewhere: Vec<(Expr, Expr)> = others
+            .map(|j| (system.coordinates[j].q, somewhere))
+            .collect();
         let conserved: Vec<(String, Expr)> = candidates(system)
             .into_iter()
             .map(|(name, e)| (name, plain(&c.restrict(system, &[e]))[0]))
+            .map(|(name, e)| (name, g.substitute(e, &somewhere)))
             .filter(|(_, e)| flow.is_closed(system, *e))
             .collect();
         (flow.finite, flow.conserved) = (finite, conserved);

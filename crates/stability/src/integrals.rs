@@ -14,7 +14,7 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use std::cmp::Ordering;
 
 /// An integral, or a function that never grows, up to the second order in the deviations of the variables from the motion.
@@ -134,27 +134,41 @@ impl Expansion<'_> {
         is_semidefinite(g, &form) && self.vanish(&[g.add(&terms)])
     }
 
-    /// Whether functions of the variables are proved to vanish on the constraints.
+    /// Whether functions of the variables are proved to vanish: wherever the finite constraints have what values they have, since the equations of
+    /// motion keep these; else on the constraints.
     pub(crate) fn vanish(&self, es: &[Expr]) -> bool {
+        let implicit = self.own.characteristics.manifold.implicit.clone();
+        let finite = self.finite_with_unknowns();
+        self.vanish_on(es, &implicit)
+            || !finite.is_empty() && self.vanish_on(es, &[implicit, finite].concat())
+    }
+
+    /// Finite constraints, each with a coordinate that occurs in it and that it determines.
+    fn finite_with_unknowns(&self) -> Vec<(Expr, Symbol)> {
         let g = self.graph();
+        let determined = self.reduction().dependent.into_iter();
+        let coordinate = |(at, _): (usize, Vec<Expr>)| {
+            self.system.coordinates[self.own.coordinates[at]].q_symbol
+        };
+        let mut free: Vec<Symbol> = determined.map(coordinate).collect();
+        let finite = self.finite().into_iter();
+        let pair = |e: Expr| {
+            let place = free.iter().position(|&s| g.contains_any(e, &[s]))?;
+            Some((g.substitute(e, &self.values), free.remove(place)))
+        };
+        finite.filter_map(pair).collect()
+    }
+
+    fn vanish_on(&self, es: &[Expr], implicit: &[(Expr, Symbol)]) -> bool {
         let assumptions = assumptions(self.system);
-        let mut implicit = self.own.characteristics.manifold.implicit.clone();
-        let rows = self.selection.rows.iter().zip(&self.selection.dependent);
-        for (&row, &dependent) in rows {
-            let constraint = &self.system.constraints[self.terms.constraint_index[row]];
-            if constraint.order == 0 {
-                let stated = g.substitute(constraint.stated, &self.values);
-                implicit.push((stated, self.system.coordinates[dependent].q_symbol));
-            }
-        }
         let test = ZeroTest {
             residuals: es,
             solved: &[],
-            implicit: &implicit,
+            implicit,
             assumptions: &assumptions,
             options: Options::default(),
         };
-        matches!(decide_zero(g, &test), Verdict::Proved(_))
+        matches!(decide_zero(self.graph(), &test), Verdict::Proved(_))
     }
 
     /// First and second derivatives at the motion.

@@ -283,3 +283,15 @@ fn the_tippe_top_at_its_threshold() {
         assert_eq!(found.contains("<="), is_stable, "{inertia}: {found}");
     }
 }
+
+/// The benchmark bicycle at its weave speed: simulated on the energy of the upright motion there, its lean dies away like t^(−1/2).
+#[test]
+fn the_bicycle_at_its_weave_speed() {
+    let case = Case::gallery("whipple-bicycle");
+    let found = case.said("stability.nonlinear", "upright");
+    assert!(
+        found.starts_with("4.292382536341104 <= v < 6.024262015388359"),
+        "{found}"
+    );
+    assert!(detail(&case, "upright").contains("on the level of the energy is negative"));
+}
