@@ -71,7 +71,7 @@ impl Expansion<'_> {
             }
         }
         let finite = self.finite().into_iter();
-        found.extend(finite.map(|e| self.jet(crate::levels::FINITE.into(), e)));
+        found.extend(finite.map(|e| self.jet(FINITE.into(), e)));
         found
     }
 
@@ -227,6 +227,9 @@ impl Expansion<'_> {
         (!own.rest.is_empty() && own.is_flat(self, &of_rest)).then_some(own)
     }
 }
+
+/// What a finite constraint is called among integrals.
+pub(crate) const FINITE: &str = "a finite constraint";
 
 /// What the energy is called among integrals.
 pub(crate) const ENERGY: &str = "the energy";

@@ -2,7 +2,7 @@
 
 use crate::expansion::Expansion;
 use crate::family::independent_rows;
-use crate::integrals::Jet;
+use crate::integrals::{Jet, FINITE};
 use chetaev_symbolic::Expr;
 
 /// The functions, finite constraints among them.
@@ -41,6 +41,3 @@ impl Levels {
         }
     }
 }
-
-/// What a finite constraint is called among integrals.
-pub(crate) const FINITE: &str = "a finite constraint";

@@ -52,4 +52,5 @@ pub mod state_space;
 pub mod steady;
 pub mod steady_set;
 mod steady_value;
+mod theorem;
 pub mod witness;

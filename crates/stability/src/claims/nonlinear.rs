@@ -2,8 +2,9 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::hurwitz::Boundary;
-use crate::methods::{Answer, Instability, METHODS};
+use crate::methods::METHODS;
 use crate::question::Place;
+use crate::theorem::{Answer, Instability};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;

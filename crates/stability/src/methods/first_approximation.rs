@@ -1,9 +1,9 @@
 //! Lyapunov's first method (Lyapunov 1892), and the theorem of Lyapunov and Malkin on families of steady motions (Malkin 1952).
 
-use super::{Answer, Instability, Method};
 use crate::decision::About;
 use crate::evidence::unstable;
 use crate::question::Place;
+use crate::theorem::{Answer, Instability, Method};
 use dashu_ratio::RBig;
 
 /// Eigenvalues decide where one lies right of the axis, or all but those of the family lie left of it.

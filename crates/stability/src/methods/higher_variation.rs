@@ -6,7 +6,6 @@
 //! Lagrange and Dirichlet where V is the energy). For a natural system at rest, with forces of a potential only, it is unstable where `W_m` takes
 //! negative values: there are motions that leave the equilibrium (Kozlov and Palamodov 1982, Dokl. 263; Arnold, Kozlov, Neishtadt 2006, § 6.6).
 
-use super::{Answer, Instability, Method};
 use crate::branching::{Branching, Leading};
 use crate::bundle::{is_negative, is_positive, minors, Bundle};
 use crate::decision::About;
@@ -15,6 +14,7 @@ use crate::levels::Levels;
 use crate::question::{bound_of, Place};
 use crate::real_roots::{bounds_at, real_roots, sign_at, sign_of};
 use crate::steady::{closed, echelon, kernel};
+use crate::theorem::{Answer, Instability, Method};
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;

@@ -7,7 +7,6 @@
 //! it is negative they go from one member of the family to another near by (Fiedler, Liebscher, Alexander 2000, J. Differential Equations 167).
 //! All numbers are enclosed.
 
-use super::{Answer, Instability, Method};
 use crate::decision::About;
 use crate::hurwitz::{determinants, Boundary, Crossing};
 use crate::integrals::Jet;
@@ -17,6 +16,7 @@ use crate::lines::{Lines, Vector};
 use crate::question::Place;
 use crate::real_roots::ball;
 use crate::steady::{closed, kernel};
+use crate::theorem::{Answer, Instability, Method};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::number::ball::solve;
 use chetaev_symbolic::number::ball::{Ball, Precision};

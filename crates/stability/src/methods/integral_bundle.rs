@@ -1,10 +1,10 @@
 //! Integrals as a Lyapunov function: bundles with a definite second variation (Routh 1877, Lyapunov 1892, Chetaev 1946; [`bundle`](crate::bundle)).
 
-use super::{Answer, Method};
 use crate::bundle::Bundle;
 use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::sign_over;
+use crate::theorem::{Answer, Method};
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
 

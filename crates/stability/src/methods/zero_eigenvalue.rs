@@ -5,13 +5,13 @@
 //! take their zeros out of the question: the theorem speaks of their levels, and what is asymptotically stable on one level stays stable beside it
 //! (Malkin 1952, § 70, on perturbations that act constantly).
 
-use super::{Answer, Instability, Method};
 use crate::branching::{Branching, Leading, HIGHEST};
 use crate::decision::About;
 use crate::levels::Levels;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
 use crate::steady::{closed, kernel};
+use crate::theorem::{Answer, Instability, Method};
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
