@@ -6,7 +6,7 @@ use crate::variational::{Extended, Order, Variational};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_stability::steady::numbers;
 
-/// How far beside the motion the others begin, in one variable each.
+/// How far beside the motion the others begin, in one variable each: a part of its value, or of 1 where it is zero.
 const NEAR: f64 = 1e-4;
 /// How long is looked, in times of the slowest mode that moves.
 const TIMES: f64 = 40.0;
@@ -41,20 +41,23 @@ pub fn perturbed_runs(
         TIMES
     };
     let mut runs = Variational::new(&flow, Vec::new(), Order::Motion).ok()?;
+    let sizes = start.iter().map(|x| if *x == 0.0 { 1.0 } else { x.abs() });
+    let sizes: Vec<f64> = sizes.collect();
     let mut farthest: Option<(f64, usize, usize)> = None;
     for moved in 0..flow.n() {
         for sign in [1.0, -1.0] {
             let mut state = start.clone();
-            state[moved] += sign * NEAR;
+            state[moved] += sign * NEAR * sizes[moved];
             let last = runs.end((0.0, end), &Extended::start(&state, &runs));
-            // A run that ends early went where the equations end.
+            // The equations may end there, or what they contain is not smooth.
             let Ok(last) = last else {
                 return Some(format!(
-                    "a numerical witness: a motion that begins {NEAR:e} beside it in {} ends before t = {end:.3}",
+                    "a numerical witness: a motion that begins {NEAR:e} of its size beside it in {} could not be computed up to t = {end:.3}",
                     flow.names[moved]
                 ));
             };
-            let apart = last.state.iter().zip(&start).map(|(a, b)| (a - b).abs());
+            let apart = last.state.iter().zip(&start).zip(&sizes);
+            let apart = apart.map(|((a, b), size)| (a - b).abs() / size);
             for (place, apart) in apart.enumerate() {
                 if farthest.is_none_or(|known| apart > known.0) {
                     farthest = Some((apart, moved, place));
@@ -65,7 +68,7 @@ pub fn perturbed_runs(
     let (apart, moved, place) = farthest?;
     let exponent = (apart / NEAR).ln() / end;
     Some(format!(
-        "a numerical witness: of {} motions that begin {NEAR:e} beside it in one variable each, the farthest is {apart:.2e} away in {} at t = {end:.3} (moved in {}), which is {:.0} times as far, a Lyapunov exponent of {exponent:.2e} over this time",
+        "a numerical witness: of {} motions that begin {NEAR:e} beside it in one variable each, in parts of its values, the farthest is {apart:.2e} away in {} at t = {end:.3} (moved in {}), which is {:.0} times as far, a Lyapunov exponent of {exponent:.2e} over this time",
         2 * flow.n(),
         flow.names[place],
         flow.names[moved],

@@ -288,16 +288,31 @@ fn decided(cx: &Context<'_>, subject: Option<&str>, statement: &dyn Statement) -
         ));
     }
     match about.question.over {
-        Some(symbol) => Pieces::new(cx, &about, statement, symbol).map_or_else(
-            || {
-                Verdict::undecided(format!(
-                    "the boundaries of stability in {} were not enclosed",
-                    about.graph().symbol_text(symbol)
-                ))
-            },
-            |pieces| pieces.verdict(&about, statement),
-        ),
+        Some(symbol) => match Pieces::new(cx, &about, statement, symbol) {
+            Some(pieces) => pieces.verdict(&about, statement),
+            None => instead(cx, &about, statement, symbol),
+        },
         None => at_values(&about, statement),
+    }
+}
+
+/// What is said where the boundaries in the parameter of the motion were not enclosed, as where it stands under a root: the statement at the values
+/// that the model states.
+fn instead(
+    cx: &Context<'_>,
+    about: &About<'_>,
+    statement: &dyn Statement,
+    symbol: Symbol,
+) -> Verdict {
+    let (system, motion) = (about.expansion.system, about.expansion.motion);
+    let there = About::new(cx, motion, &values_but(system, None), None);
+    let found = there.map(|there| at_values(&there, statement));
+    match found {
+        Ok(found) if !matches!(found, Verdict::Undecided { .. }) => found,
+        _ => Verdict::undecided(format!(
+            "the boundaries of stability in {} were not enclosed",
+            about.graph().symbol_text(symbol)
+        )),
     }
 }
 

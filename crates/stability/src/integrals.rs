@@ -11,6 +11,7 @@ use crate::real_roots::sign_of;
 use crate::reduction::without;
 use crate::steady::closed;
 use chetaev_mechanics::characteristics::Direction;
+use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
@@ -79,8 +80,31 @@ impl Expansion<'_> {
     fn of_variables(&self, e: Expr) -> Option<Expr> {
         let g = self.graph();
         let own = self.own.characteristics.restrict(self.system, &[e]);
+        let own = g.substitute_all(&own, &self.placed_by_constraints());
         let own = g.substitute_all(&own, &self.controls(&own));
         self.without_ignorable(g.substitute_all(&own, &self.values)[0])
+    }
+
+    /// Ignorable coordinates that finite constraints give as functions of others, as the height of a bead on a wire.
+    fn placed_by_constraints(&self) -> Vec<(Expr, Expr)> {
+        let (g, system) = (self.graph(), self.system);
+        let rows = self.selection.rows.iter();
+        let constraints = rows.map(|&row| &system.constraints[self.terms.constraint_index[row]]);
+        let finite = constraints.filter(|c| c.kind == ConstraintKind::Holonomic);
+        let ignorable = self.own.ignorable(system);
+        let mut found: Vec<(Expr, Expr)> = Vec::new();
+        for own in finite {
+            let stated = g.substitute(own.stated, &found);
+            let solved = ignorable.iter().find_map(|&j| {
+                let c = &system.coordinates[j];
+                let slope = closed(g, g.diff(stated, c.q_symbol));
+                let is_number = g.as_number(slope).is_some() && !g.is_zero(slope);
+                let rest = g.substitute(stated, &[(c.q, g.zero())]);
+                is_number.then(|| (c.q, g.neg(g.div(rest, slope))))
+            });
+            found.extend(solved);
+        }
+        found
     }
 
     /// A function of coordinates and quasi-velocities without ignorable coordinates and the time; `None` where it depends on them.

@@ -14,7 +14,7 @@
 //!    [`real_roots`]; [`question`] puts it together.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
 //!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
-//!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`.
+//!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`, that of a `critical` direction.
 //!    [`witness`]: runs beside it as a witness where nothing is decided.
 //! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots;
 //!    [`guess`]: the one that is meant by guesses.
@@ -25,6 +25,7 @@ mod branching;
 pub mod bundle;
 pub mod characteristic;
 pub mod claims;
+mod critical;
 mod decision;
 pub mod eigenvalues;
 pub mod enclosure;

@@ -3,6 +3,7 @@
 //! A theorem is asked at a value of the parameter, or throughout an interval in which none of its [`functions`](Method::functions) changes its
 //! sign. It answers only where all of its hypotheses are verified.
 
+mod double_zero;
 mod drift;
 mod first_approximation;
 mod higher_variation;
@@ -20,6 +21,7 @@ pub(crate) static METHODS: &[&dyn Method] = &[
     &higher_variation::HigherVariation,
     &reversal::Reversal,
     &zero_eigenvalue::ZeroEigenvalue,
+    &double_zero::DoubleZero,
     &imaginary_pair::ImaginaryPair,
     &drift::Drift,
 ];

@@ -9,7 +9,7 @@
 use crate::branching::{Branching, Leading};
 use crate::bundle::{is_negative, is_positive, minors, Bundle};
 use crate::decision::About;
-use crate::integrals::{Jet, ENERGY};
+use crate::integrals::{Jet, ENERGY, FINITE};
 use crate::levels::Levels;
 use crate::question::{bound_of, Place};
 use crate::real_roots::{bounds_at, real_roots, sign_at, sign_of};
@@ -216,7 +216,12 @@ fn of_bundle(
         return None;
     }
     let (first, further) = first_term(about, (jets, levels), bundle)?;
-    let is_energy = |(jet, &w): (&Jet, &Expr)| (jet.name == ENERGY) != g.is_zero(w);
+    // On finite constraints the potential energy is looked at where they hold.
+    let is_energy = |(jet, &w): (&Jet, &Expr)| match jet.name.as_str() {
+        ENERGY => sign_of(g, w) == Some(Ordering::Greater),
+        FINITE => true,
+        _ => g.is_zero(w),
+    };
     Some(Degenerate {
         text: bundle.text.clone(),
         falls: bundle.falls,

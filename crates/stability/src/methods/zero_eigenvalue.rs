@@ -5,12 +5,11 @@
 //! take their zeros out of the question: the theorem speaks of their levels, and what is asymptotically stable on one level stays stable beside it
 //! (Malkin 1952, § 70, on perturbations that act constantly).
 
-use crate::branching::{Branching, Leading, HIGHEST};
+use crate::branching::HIGHEST;
+use crate::critical::Critical;
 use crate::decision::About;
-use crate::levels::Levels;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
-use crate::steady::{closed, kernel};
 use crate::theorem::{Answer, Instability, Method};
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
@@ -19,29 +18,25 @@ use std::cmp::Ordering;
 /// One eigenvalue is zero, beside those of the levels of integrals.
 pub(crate) struct ZeroEigenvalue;
 
-/// `x' = c xᵐ + …`; no term where all that were looked at vanish.
-struct Critical {
-    levels: String,
-    term: Option<Leading>,
-    rate: Expr,
-    nonzero: Vec<Expr>,
+/// `x' = c xᵐ + …`.
+struct Single(Option<Critical>);
+
+fn single(about: &About<'_>) -> Single {
+    Single(Critical::of(about, 1))
 }
 
 impl Method for ZeroEigenvalue {
     fn functions(&self, about: &About<'_>) -> Vec<Expr> {
-        let critical = about.once(|| critical(about));
-        let own = (*critical).as_ref();
-        own.map_or_else(Vec::new, |own| {
-            [own.nonzero.clone(), vec![own.rate]].concat()
-        })
+        let own = about.once(|| single(about));
+        own.0.as_ref().map_or_else(Vec::new, Critical::functions)
     }
 
     fn answer(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Answer {
         if place != Place::OnAxis {
             return Answer::NotApplicable;
         }
-        let critical = about.once(|| critical(about));
-        let Some(own) = (*critical).as_ref() else {
+        let found = about.once(|| single(about));
+        let Some(own) = found.0.as_ref() else {
             return Answer::NotApplicable;
         };
         let g = about.graph();
@@ -81,74 +76,4 @@ impl Method for ZeroEigenvalue {
             )),
         }
     }
-}
-
-fn critical(about: &About<'_>) -> Option<Critical> {
-    let (g, own, question) = (about.graph(), &about.expansion, &about.question);
-    let zeros = question.zeros();
-    let is_alone = question.spectrum.paired.is_none() && zeros > 0;
-    let is_explicit = own.own.characteristics.manifold.implicit.is_empty();
-    if !is_alone || !is_explicit || !own.is_smooth() {
-        return None;
-    }
-    let levels = Levels::of(own, about.integrals());
-    if levels.jets.len() != zeros - 1 + own.reduction().dependent.len() {
-        return None;
-    }
-    let slopes = own.slopes();
-    let jacobian = [slopes.clone(), levels.gradients()].concat();
-    let n = slopes.len();
-    let (vectors, mut nonzero) = kernel(g, &jacobian, n);
-    let [direction] = vectors.as_slice() else {
-        return None;
-    };
-    let transposed: Vec<Vec<Expr>> = (0..n)
-        .map(|c| slopes.iter().map(|row| row[c]).collect())
-        .collect();
-    let (left, further) = kernel(g, &transposed, n);
-    nonzero.extend(further);
-    let masses = own.masses();
-    let inertia = |w: &Vec<Expr>| {
-        let of_row = |(&w, row): (&Expr, &Vec<Expr>)| {
-            let terms = row.iter().zip(direction).map(|(&m, &x)| g.mul(&[w, m, x]));
-            g.add(&terms.collect::<Vec<_>>())
-        };
-        let rows: Vec<Expr> = w.iter().zip(&masses).map(of_row).collect();
-        closed(g, g.add(&rows))
-    };
-    let (weights, inertia) = left
-        .iter()
-        .map(|w| (w, inertia(w)))
-        .find(|(_, inertia)| !g.is_zero(*inertia))?;
-    nonzero.push(inertia);
-    let moving = own.moving();
-    let of_levels: Option<Vec<Expr>> = levels.jets.iter().map(|jet| jet.value).collect();
-    let of_levels = of_levels?;
-    let start = own.at(&of_levels);
-    let equations = |deviations: &[Expr]| {
-        let found = own.beside(&[moving.clone(), of_levels.clone()].concat(), deviations);
-        let constant = std::iter::repeat_n(g.zero(), n).chain(start.iter().copied());
-        let pairs = found.into_iter().zip(constant);
-        pairs.map(|(a, b)| g.sub(a, b)).collect()
-    };
-    let silent = std::iter::repeat_n(g.zero(), levels.jets.len());
-    let weights: Vec<Expr> = weights.iter().copied().chain(silent).collect();
-    let branching = Branching {
-        graph: g,
-        equations: &equations,
-        jacobian: &jacobian,
-        direction,
-        weights: &weights,
-    };
-    let term = branching.leading();
-    let rate = term
-        .as_ref()
-        .map_or(g.zero(), |term| closed(g, g.div(term.coefficient, inertia)));
-    nonzero.extend(term.iter().flat_map(|term| term.nonzero.clone()));
-    Some(Critical {
-        levels: levels.text(),
-        term,
-        rate,
-        nonzero,
-    })
 }

@@ -65,6 +65,30 @@ fn one_zero_eigenvalue() {
     }
 }
 
+/// A chain of two zeros: a cusp, a saddle, and where further terms decide; beside a variable that dies away and bends the manifold.
+#[test]
+fn two_zero_eigenvalues() {
+    for (force, expected) in [
+        ("x^2", "refuted"),
+        ("x^3 + x'^2", "refuted"),
+        ("x^2 x' + x^3 - x'^3", "refuted"),
+        ("-x^3 - x^2 x'", "undecided"),
+    ] {
+        let found = with_friction(force).said("stability.nonlinear", "rest");
+        assert!(found.starts_with(expected), "{force}: {found}");
+    }
+    // b = a² + …, so that a' = c, c' = a b = a³; with −3 a b it is −a³ + …
+    for (rate, expected) in [("a' b'", "refuted"), ("-3 a' b'", "undecided")] {
+        let case = first_order(
+            &[("a", "c'"), ("c", rate), ("b", "-b' + a'^2")],
+            &["0", "0", "0"],
+            "",
+        );
+        let found = case.said("stability.nonlinear", "state");
+        assert!(found.starts_with(expected), "{rate}: {found}");
+    }
+}
+
 /// The noncritical variable feeds back: a' = a b, b' = −b + σ a² is a' = σ a³ on the centre manifold (Carr 1981, ch. 1).
 #[test]
 fn the_centre_manifold_bends() {
@@ -114,6 +138,17 @@ fn degenerate_potentials() {
     assert!(case
         .said("stability.nonlinear", "rest")
         .starts_with("undecided"));
+}
+
+/// A bead on a wire y = c x⁴ with its height as a second coordinate, under a constraint that is stated twice.
+#[test]
+fn a_bead_on_a_flat_wire() {
+    for (c, expected) in [("1", "proved"), ("-1", "refuted")] {
+        let case = Case::new(&format!(
+            "coordinates = [\"x\", \"y\"]\nparameters = {{ m = 3, g = 9.81 }}\n[lagrangian]\nT = \"1/2 m (x'^2 + y'^2)\"\nV = \"m g y\"\n[constraints]\nwire = \"y = {c} x^4\"\nagain = \"2 y = 2 ({c}) x^4\"\n[steady.rest]\nx = 0\ny = 0\n\"x'\" = 0\n"
+        ));
+        assert_eq!(case.said("stability.nonlinear", "rest"), expected, "{c}");
+    }
 }
 
 /// A gyroscopic force keeps a particle on a quartic hill, or not; natural systems only are refuted by their potential.
