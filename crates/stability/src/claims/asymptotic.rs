@@ -70,9 +70,8 @@ impl Statement for Asymptotic {
     }
 }
 
-/// Whether zero has fewer eigenvectors than its multiplicity, and as many as the family has dimensions.
+/// Whether zero has fewer eigenvectors than its multiplicity: a family of steady motions has no more dimensions than these.
 fn is_chain(about: &About<'_>) -> bool {
     let found = defects(about.graph(), &about.question, None).unwrap_or_default();
-    let mut of_zero = found.iter().filter(|own| own.factor.is_none());
-    of_zero.any(|own| own.chains == about.question.linear.family)
+    found.iter().any(|own| own.factor.is_none())
 }
