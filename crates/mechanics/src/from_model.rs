@@ -2,11 +2,12 @@
 
 use crate::mass::NamedMasses;
 use crate::system::{
-    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, IntegralForm, Particle,
-    Relation, StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin,
-    Unknown, VariationOperator,
+    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, IntegralForm, NameNote,
+    Particle, Relation, StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust,
+    Twin, Unknown, VariationOperator,
 };
 use chetaev_model::model::{InitialValue, MassLaw, Model, SteadyStated, Thrust as StatedThrust};
+use chetaev_model::units::Unit;
 use chetaev_symbolic::syntax::Relation as Stated;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -166,6 +167,7 @@ impl System {
                         .collect(),
                 })
                 .collect(),
+            notes: notes(model),
             twins: model
                 .twins
                 .iter()
@@ -248,4 +250,29 @@ fn assumption(stated: &chetaev_model::model::Assumption) -> Option<Assumption> {
         right,
         text: stated.text.clone(),
     })
+}
+
+/// Symbols, units and descriptions by name.
+fn notes(model: &Model) -> BTreeMap<String, NameNote> {
+    let text = |unit: &Option<Unit>| unit.as_ref().map_or_else(String::new, |u| u.text.clone());
+    let coordinates = (model.coordinates.iter()).map(|c| (&c.name, text(&c.unit), &c.description));
+    let parameters = (model.parameters.iter()).map(|p| (&p.name, text(&p.unit), &p.description));
+    let controls = (model.controls.iter()).map(|u| (&u.name, text(&u.unit), &u.description));
+    let defined = model.quasi_velocities.iter().chain(&model.defines);
+    let defined = defined.map(|d| (&d.name, String::new(), &d.description));
+    let all = coordinates.chain(parameters).chain(controls).chain(defined);
+    let mut notes: BTreeMap<String, NameNote> = all
+        .map(|(name, unit, description)| {
+            let note = NameNote {
+                latex: None,
+                unit,
+                description: description.clone(),
+            };
+            (name.clone(), note)
+        })
+        .collect();
+    for (name, latex) in &model.symbols {
+        notes.entry(name.clone()).or_default().latex = Some(latex.clone());
+    }
+    notes
 }

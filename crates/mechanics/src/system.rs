@@ -51,6 +51,17 @@ impl Coordinate {
     }
 }
 
+/// What a model says of a name to its reader; nothing is computed from it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NameNote {
+    /// Its symbol in LaTeX, where stated.
+    pub latex: Option<String>,
+    /// Its unit as it is written; may be empty.
+    pub unit: String,
+    /// What it is; may be empty.
+    pub description: String,
+}
+
 /// A parameter: a symbol that does not move.
 #[derive(Clone, Debug)]
 pub struct Parameter {
@@ -314,6 +325,8 @@ pub struct SystemParts {
     pub equations: Vec<StatedEquations>,
     /// Systems that are said to have the same motion.
     pub twins: Vec<Twin>,
+    /// What the model says of its names to a reader.
+    pub notes: BTreeMap<String, NameNote>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -449,6 +462,8 @@ pub struct System {
     pub twins: Vec<Twin>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
+    /// What the model says of its names to a reader.
+    pub notes: BTreeMap<String, NameNote>,
     /// Places of the coordinates by name.
     places: BTreeMap<String, usize>,
     /// Quantities that the model does not name.
@@ -564,6 +579,7 @@ impl System {
             steady: parts.steady,
             equations: parts.equations,
             twins: parts.twins,
+            notes: parts.notes,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             names: Names::default(),

@@ -14,6 +14,7 @@ use chetaev_symbolic::syntax::{lower, Builtin, Span, Tree};
 use chetaev_symbolic::Rational;
 
 use crate::diagnostic::Diagnostic;
+use crate::resolve::advice::is_degree;
 use crate::resolve::formula::Formula;
 use crate::resolve::scope::{Context, ModelScope, NamedKind};
 use crate::resolve::Resolver;
@@ -337,6 +338,7 @@ impl Checker<'_> {
         ) {
             ("pi", _) => Some(Dimension::none()),
             ("t", _) => Some(Dimension::time()),
+            (degree, None) if is_degree(degree) => Some(Dimension::none()),
             (_, Some(NamedKind::Size(value))) => return number(value),
             (_, Some(NamedKind::Define(number))) => self.defines.get(number).cloned().flatten(),
             _ => self.unit_of(&name).map(|unit| unit.dimension.clone()),

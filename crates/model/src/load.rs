@@ -6,6 +6,7 @@ use chetaev_symbolic::syntax::Span;
 
 use crate::bodies;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::format;
 use crate::model::{Model, ModelText};
 use crate::raw::{self, Kind, Raw, Table};
 use crate::resolve::{self, Override};
@@ -312,6 +313,10 @@ impl<'f> Loader<'f> {
             self.failed = true;
             return None;
         };
+        if let Some(problem) = format::taken(&mut table) {
+            self.fail(problem);
+            return None;
+        }
         let Some(include) = table.remove("include") else {
             return Some(table);
         };

@@ -110,6 +110,8 @@ pub struct Model {
     pub sizes: Vec<(String, i64)>,
     /// Warnings of parameters and definitions that occur nowhere.
     pub unused: Vec<crate::Diagnostic>,
+    /// Symbols in LaTeX by the names for which they are stated, as [`StatedSymbol`](chetaev_symbolic::print::StatedSymbol) reads them.
+    pub symbols: BTreeMap<String, String>,
     /// Whether units are stated, and checked.
     pub has_units: bool,
     /// The texts it was read from, for diagnostics of later stages.

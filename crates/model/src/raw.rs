@@ -263,6 +263,15 @@ fn syntax_error(text: &str, source: SourceId, span: Span, message: &str) -> Diag
             .hint("a key with primes, braces or Greek letters stands in quotation marks")
             .suggest(at, format!("\"{key}\""));
     }
+    if let Some((at, point)) = decimal_comma(line) {
+        let at = Place {
+            source,
+            span: Span::new(start + at.start, start + at.end),
+        };
+        return diagnostic
+            .hint("the decimal sign is a point")
+            .suggest(at, point);
+    }
     let value = line.split_once('=').map_or("", |(_, value)| value.trim());
     if !value.is_empty() && !value.starts_with(['"', '\'', '[', '{']) && !value.contains('"') {
         let from = start + line.rfind(value).unwrap_or(0);
@@ -275,6 +284,20 @@ fn syntax_error(text: &str, source: SourceId, span: Span, message: &str) -> Diag
             .suggest(at, format!("\"{value}\""));
     }
     diagnostic
+}
+
+/// A number with a comma in the place of its point, `1,5`, and the same with the point.
+fn decimal_comma(line: &str) -> Option<(std::ops::Range<usize>, String)> {
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next()?;
+    let own = value.trim();
+    let (whole, digits) = own.split_once(',')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !is_number(whole.trim_start_matches(['-', '+'])) || !is_number(digits) {
+        return None;
+    }
+    let start = key.len() + 1 + value.find(own)?;
+    Some((start..start + own.len(), format!("{whole}.{digits}")))
 }
 
 fn floor(text: &str, at: usize) -> usize {

@@ -3,11 +3,12 @@
 use chetaev_mechanics::equations::{Equation, Equations, NamedExpr};
 use chetaev_mechanics::{Manifold, Prover, System};
 use chetaev_report::data::{Definition, Equation as Printed, Formula};
-use chetaev_symbolic::print::{Document, Format, Options, Parts};
+use chetaev_symbolic::print::{as_stated, Document, Format, Options, Parts};
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::syntax::names::greek_letter;
 use chetaev_symbolic::{Expr, Graph, Verdict};
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 /// Printing options of a system: its coordinates, quasi-velocities and parameters in the order of the model. Where a
 /// quasi-velocity stands in a product does not depend on whether its rate occurs beside it.
@@ -17,6 +18,7 @@ pub fn print_options(system: &System) -> Options {
     Options {
         coordinates: coordinates.chain(quasi_velocities).collect(),
         parameters: system.parameters.iter().map(|p| p.name.clone()).collect(),
+        display: symbols(system),
         ..Options::default()
     }
 }
@@ -26,10 +28,17 @@ pub fn print_options_with(system: &System, objects: &[NamedExpr]) -> Options {
     let typeset = objects
         .iter()
         .filter_map(|o| Some((o.name.clone(), o.typeset.clone()?)));
-    Options {
-        display: typeset.collect(),
-        ..print_options(system)
-    }
+    let mut options = print_options(system);
+    options.display.extend(typeset);
+    options
+}
+
+/// The symbols that the model states in LaTeX.
+fn symbols(system: &System) -> BTreeMap<String, String> {
+    let stated = system.notes.iter();
+    stated
+        .filter_map(|(name, note)| Some((name.clone(), as_stated(note.latex.as_ref()?))))
+        .collect()
 }
 
 /// Accelerations first, then velocities: the groups by which equations of motion are collected.
@@ -267,6 +276,17 @@ impl<'a> Typesetter<'a> {
             return (alone.collect(), Vec::new());
         }
         self.shared(equations).unwrap_or_default()
+    }
+
+    /// Equations in their own printing, each with the definitions of names it needs.
+    pub fn equations_with(&self, equations: &[(Expr, Expr)], options: &Options) -> Vec<Printed> {
+        let g = self.graph();
+        let one = |&(left, right): &(Expr, Expr)| {
+            self.set(&[left, right], || {
+                Document::equations(g, &[(left, right)], options)
+            })
+        };
+        equations.iter().map(one).collect()
     }
 
     /// Equations that are too long to be read one by one, with the definitions of the parts that they share; `None` where nobody

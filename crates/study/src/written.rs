@@ -95,6 +95,17 @@ pub enum NotWritten {
     /// A formulation that does not apply, or gives nothing.
     #[error(transparent)]
     NotDerived(#[from] NotDerived),
+    /// A formulation that offers no steps.
+    #[error("`{name}` is not written step by step here; {known}")]
+    NoSteps {
+        /// The formulation.
+        name: &'static str,
+        /// Those that offer steps, in a sentence.
+        known: String,
+    },
+    /// A derivation in another notation.
+    #[error("steps are written as text and latex: use `--as text` or `--as latex`")]
+    StepsAsText,
     /// What has no code.
     #[error(transparent)]
     Code(CodeError),

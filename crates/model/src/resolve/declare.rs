@@ -1,5 +1,6 @@
 //! Declarations: sizes, indices, coordinates, parameters, controls, with families expanded.
 
+use chetaev_symbolic::print::StatedSymbol;
 use chetaev_symbolic::syntax::ast::{NamePart, Node};
 use chetaev_symbolic::syntax::lower::{expand_name, Bindings};
 use chetaev_symbolic::syntax::{functions, names, parse_expression, parse_range};
@@ -333,7 +334,9 @@ impl Resolver {
                     let (unit, description) = match &raw.kind {
                         Kind::Text(unit) => (self.unit(unit), String::new()),
                         Kind::Table(table) => {
-                            self.known_keys(table, &["unit", "description"], "of a coordinate");
+                            let known = ["unit", "description", "latex"];
+                            self.known_keys(table, &known, "of a coordinate");
+                            self.symbol(key, table);
                             self.unit_and_description(table)
                         }
                         _ => {
@@ -432,6 +435,36 @@ impl Resolver {
         }
     }
 
+    /// Keeps the symbol in LaTeX that is stated for a name.
+    pub(crate) fn symbol(&mut self, key: &Text, table: &Table) {
+        let Some(latex) = self.optional_text(table, "latex") else {
+            return;
+        };
+        if key.content.contains('{') {
+            let message = format!(
+                "`{}` stands for several names, and one symbol does not",
+                key.content
+            );
+            self.push(
+                Diagnostic::error("bad-symbol", latex.place, message)
+                    .hint("leave `latex` out: the members of a family are typeset by their names"),
+            );
+            return;
+        }
+        match StatedSymbol::read(&latex.content) {
+            Ok(_) => {
+                let name = names::normalized(&key.content);
+                self.symbols.insert(name, latex.content.trim().to_owned());
+            }
+            Err(why) => {
+                let message = format!("this symbol cannot be typeset: {why}");
+                self.push(Diagnostic::error("bad-symbol", latex.place, message).hint(
+                    "a symbol is made of letters, digits, Greek letters, accents, \\mathrm{word}, and sub- and superscripts: '\\dot\\theta', 'C_c'",
+                ));
+            }
+        }
+    }
+
     pub(crate) fn unit_and_description(&mut self, table: &Table) -> (Option<Unit>, String) {
         let unit = self
             .optional_text(table, "unit")
@@ -466,7 +499,9 @@ impl Resolver {
             let before = self.diagnostics.len();
             let (unit, description) = match &raw.kind {
                 Kind::Table(table) => {
-                    self.known_keys(table, &["value", "unit", "description"], "of a control");
+                    let known = ["value", "unit", "description", "latex"];
+                    self.known_keys(table, &known, "of a control");
+                    self.symbol(key, table);
                     self.unit_and_description(table)
                 }
                 _ => (None, String::new()),

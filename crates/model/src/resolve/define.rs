@@ -122,9 +122,10 @@ impl Resolver {
             if kind != DefineKind::Mass {
                 self.known_keys(
                     table,
-                    &["value", "unit", "description"],
+                    &["value", "unit", "description", "latex"],
                     &format!("of {what}"),
                 );
+                self.symbol(key, table);
             }
             (unit, description) = self.unit_and_description(table);
             value = table.get("value");

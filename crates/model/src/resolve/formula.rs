@@ -7,10 +7,11 @@ use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::syntax::{self, lower, NodeId, Parsed};
 use chetaev_symbolic::{Expr, Rational};
 
+use super::advice::improved;
 use super::scope::{Context, ModelScope};
 use super::Resolver;
 use crate::diagnostic::Diagnostic;
-use crate::raw::Raw;
+use crate::raw::{Kind, Raw};
 use crate::text::Text;
 
 /// What the dimension of an expression must be.
@@ -99,7 +100,10 @@ impl Resolver {
     pub(crate) fn parse(&mut self, text: &Text, parser: fn(&str) -> Parsed) -> Rc<Parsed> {
         let parsed = parser(&text.content);
         let errors = |parsed: &Parsed| parsed.diagnostics.iter().filter(|d| d.is_error()).count();
-        for diagnostic in &parsed.diagnostics {
+        let known = |name: &str| self.names.contains_key(name);
+        let of_others = (parsed.diagnostics.iter()).map(|d| improved(d, &text.content, &known));
+        let found: Vec<syntax::Diagnostic> = of_others.collect();
+        for diagnostic in &found {
             let diagnostic = checked(diagnostic, text, |written| {
                 let again = parser(written);
                 errors(&again) < errors(&parsed) || !diagnostic.is_error() && !again.has_errors()
@@ -136,6 +140,9 @@ impl Resolver {
         if wanted.is_empty() {
             let place = parsed.sides.iter().position(|own| *own == side);
             let before = found.len();
+            let known = |name: &str| self.names.contains_key(name);
+            let of_others = found.iter().map(|d| improved(d, &text.content, &known));
+            let found: Vec<syntax::Diagnostic> = of_others.collect();
             let diagnostics: Vec<_> = found
                 .iter()
                 .take(CHECKED)
@@ -229,7 +236,13 @@ impl Resolver {
     pub(crate) fn expression_text(&mut self, raw: &Raw, what: &str) -> Option<Text> {
         let text = raw.expression().cloned();
         if text.is_none() {
-            self.wrong_kind(raw, what, "an expression");
+            let message = format!("{what} must be an expression, not {}", raw.kind.word());
+            let diagnostic = Diagnostic::error("wrong-kind", raw.place, message);
+            self.push(match raw.kind {
+                Kind::Array(_) => diagnostic
+                    .hint("there are no tables of numbers: write a formula that fits them"),
+                _ => diagnostic,
+            });
         }
         text
     }

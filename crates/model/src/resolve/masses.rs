@@ -33,7 +33,7 @@ pub(crate) struct MassStated {
 }
 
 /// The keys of a mass.
-const KEYS: &[&str] = &["value", "rate", "initial", "unit", "description"];
+const KEYS: &[&str] = &["value", "rate", "initial", "unit", "description", "latex"];
 
 impl Resolver {
     /// Declares the names of `[masses]`; values and rates follow with the definitions.
@@ -47,6 +47,7 @@ impl Resolver {
                 continue;
             };
             self.known_keys(table, KEYS, "of a mass");
+            self.symbol(key, table);
             self.check_law(key, table);
             match (table.get("rate"), table.get("value")) {
                 (Some(rate), _) => self.declare_mass_with_law(key, raw, rate),

@@ -3,6 +3,7 @@
 //! Every section is read even where an earlier one has errors, so that all problems are reported at once; a value
 //! that could not be understood is known as such, and what uses it gives no second diagnostic.
 
+pub(crate) mod advice;
 mod characteristics;
 mod complete_integral;
 mod declare;
@@ -92,6 +93,8 @@ pub(crate) struct Resolver {
     pub(crate) used: RefCell<BTreeSet<String>>,
     /// Unknowns of the equations that are being read.
     pub(crate) unknowns: Vec<String>,
+    /// Symbols in LaTeX by the names for which they are stated.
+    pub(crate) symbols: BTreeMap<String, String>,
     /// The models of twins by the place of the text that names them; none where one could not be read.
     pub(crate) others: BTreeMap<Place, Option<Model>>,
 }
@@ -166,6 +169,7 @@ pub(crate) fn resolve(
         unreadable_units: Vec::new(),
         used: RefCell::default(),
         unknowns: Vec::new(),
+        symbols: BTreeMap::new(),
         others,
     };
     resolver.known_keys(root, SECTIONS, "of a model file");
@@ -267,6 +271,7 @@ impl Resolver {
             sizes: std::mem::take(&mut self.sizes),
             unused,
             has_units,
+            symbols: std::mem::take(&mut self.symbols),
             sources,
             text,
         })

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::{Expr, Rational};
 
+use super::advice::names_a_degree;
 use super::define::{dependency_order, joined};
 use super::formula::Expected;
 use super::scope::{Context, NamedKind};
@@ -52,9 +53,10 @@ impl Resolver {
         {
             self.known_keys(
                 table,
-                &["value", "unit", "range", "description"],
+                &["value", "unit", "range", "description", "latex"],
                 "of a parameter",
             );
+            self.symbol(key, table);
             let before = self.diagnostics.len();
             (unit, description) = self.unit_and_description(table);
             self.excuse_unit(key, before);
@@ -108,6 +110,7 @@ impl Resolver {
             if let Some(text) = text {
                 let context = Context::constant("the value of a parameter");
                 let expected = Expected::Quantity(name.clone(), 0);
+                self.check_degrees(&text, unit.as_ref());
                 let value = self.expression(&text, &bindings, context, expected);
                 self.parameters[at].definition =
                     value.map(|value| self.in_base_units(value, unit.as_ref()));
@@ -119,6 +122,27 @@ impl Resolver {
         }
         self.close_parameters();
         self.check_ranges();
+    }
+
+    /// A number of degrees is in radians already, and takes no other unit.
+    fn check_degrees(&mut self, text: &Text, unit: Option<&Unit>) {
+        let Some(unit) = unit.filter(|unit| unit.text != "rad") else {
+            return;
+        };
+        let is_declared = |name: &str| self.names.contains_key(name);
+        if names_a_degree(&text.content)
+            && !["deg", "degree", "degrees"].into_iter().any(is_declared)
+        {
+            let message = format!(
+                "the value is in degrees and its unit is stated as `{}`",
+                unit.text
+            );
+            self.push(
+                Diagnostic::error("unit-twice", text.place, message).hint(
+                    "write value = 30, unit = \"deg\", or the text \"30 deg\" without a unit",
+                ),
+            );
+        }
     }
 
     fn parameter_range(
@@ -143,6 +167,7 @@ impl Resolver {
         let mut ends = Vec::new();
         for end in [low, high] {
             let text = self.expression_text(end, "the end of a range")?;
+            self.check_degrees(&text, unit);
             let expected = Expected::Quantity(name.to_owned(), 0);
             let value = self.expression(
                 &text,

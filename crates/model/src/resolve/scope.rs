@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use chetaev_symbolic::syntax::{Resolution, Scope};
 use chetaev_symbolic::Expr;
 
+use super::advice::is_degree;
 use super::define::{DefineKind, State};
 use super::variation::DISPLACEMENT;
 use super::{Resolver, GUESSED};
@@ -468,6 +469,12 @@ impl ModelScope<'_> {
         contents
     }
 
+    /// π/180.
+    fn degree(&self) -> Expr {
+        let g = &self.resolver.graph;
+        g.div(g.pi(), g.integer(180))
+    }
+
     /// A symbol that may not occur here.
     fn forbidden(&self, contents: &Contents) -> Option<String> {
         let Context {
@@ -534,6 +541,8 @@ impl Scope for ModelScope<'_> {
                     "a quantity with a derivative is a function of the state: state it under [define]",
                 ),
             },
+            // Angles are in radians, and a number of degrees is one.
+            None if is_degree(name) && order == 0 => Resolution::Known(self.degree()),
             None => Resolution::Unknown,
             Some(NamedKind::Coordinate) => self.varying(name, order, "coordinate"),
             Some(NamedKind::Control) => self.varying(name, order, "control"),

@@ -233,3 +233,173 @@ fn events_that_cannot_happen() {
         assert!(loaded.model.is_some(), "{when}: {}", loaded.diagnostics);
     }
 }
+
+#[test]
+fn an_unknown_version_of_the_format_is_refused_at_its_place() {
+    let model = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n";
+    for accepted in ["", "chetaev = \"1\"\n", "chetaev = 1\n"] {
+        assert!(
+            read(&format!("{accepted}{model}")).model.is_some(),
+            "{accepted}"
+        );
+    }
+    let later = format!("chetaev = \"2\"\n{model}");
+    refused(
+        &later,
+        &[
+            "`2` is not a version",
+            "model.toml:1:11",
+            "read as version 1",
+        ],
+    );
+    let wrong = format!("chetaev = [1]\n{model}");
+    refused(
+        &wrong,
+        &["must be a version", "not an array", "model.toml:1:11"],
+    );
+    // An included file of another version is refused at its own place.
+    let files = std::collections::BTreeMap::from([("base.toml".to_owned(), later)]);
+    let loaded = load("model.toml", "include = \"base.toml\"\n", &files, &[]);
+    assert!(loaded.model.is_none());
+    let message = loaded.diagnostics.render(Style::Plain);
+    assert!(message.contains("base.toml:1:11"), "{message}");
+}
+
+/// What `check` offers to write in place of a text, carried out; none where nothing is offered.
+fn carried_out(text: &str) -> Vec<String> {
+    let loaded = read(text);
+    let offered = loaded
+        .diagnostics
+        .list
+        .iter()
+        .filter_map(|d| d.suggestion.as_ref());
+    offered
+        .map(|own| {
+            let span = own.place.span;
+            format!(
+                "{}{}{}",
+                &text[..span.start],
+                own.replacement,
+                &text[span.end..]
+            )
+        })
+        .collect()
+}
+
+fn with_energy(kinetic: &str, potential: &str) -> String {
+    format!("coordinates = [\"x\", \"theta\"]\nparameters = {{ m = 1, l = 2, g = 9, k = 3 }}\n[lagrangian]\nT = \"{kinetic} + 1/2 m l^2 theta'^2\"\nV = \"{potential}\"\n")
+}
+
+/// Derivatives as other programs write them: what is offered is read, and is the derivative.
+#[test]
+fn derivatives_of_other_programs_are_offered_as_primes() {
+    let right = read(&with_energy("1/2 m x'^2", "0")).model.unwrap();
+    for written in [
+        "1/2 m (dx/dt)^2",
+        "1/2 m xdot^2",
+        "1/2 m x_dot^2",
+        "1/2 m diff(x, t)^2",
+        "1/2 m Derivative(x, t)^2",
+        "1/2 m x'(t)^2",
+    ] {
+        let offered = carried_out(&with_energy(written, "0"));
+        assert_eq!(offered.len(), 1, "{written}: {offered:?}");
+        let loaded = read(&offered[0]);
+        let model = loaded
+            .model
+            .unwrap_or_else(|| panic!("{written}: {}", loaded.diagnostics));
+        let text = |model: &chetaev_model::Model| model.graph.text(model.lagrangian);
+        assert_eq!(text(&model), text(&right), "{written}");
+    }
+    // What is differentiated in dx/dt^2 is not said, and nothing is offered.
+    assert_eq!(
+        carried_out(&with_energy("1/2 m dx/dt^2", "0")),
+        Vec::<String>::new()
+    );
+}
+
+/// What is not available is refused with a way round, and no suggestion that would be read as something else.
+#[test]
+fn what_other_languages_have_is_refused_with_a_way_round() {
+    for (potential, words) in [
+        (
+            "if x > 0 then x else 0",
+            ["join the cases smoothly", "[events]"],
+        ),
+        ("x > 0 ? x : 0", ["join the cases smoothly", "[events]"]),
+        ("min(1, x)", ["sqrt((a - b)^2 + eps^2)", "[events]"]),
+        ("if(x > 0, x, 0)", ["tanh", "[events]"]),
+        ("sat(x)", ["L tanh(x/L)", "saturation"]),
+        ("interp(x)", ["there are no tables", "formula"]),
+        ("x % 2", ["jumps", "not available"]),
+        ("k |x|", ["abs(x)", "absolute"]),
+        ("np.sin(x)", ["write sin(x)", "by themselves"]),
+    ] {
+        let text = with_energy("1/2 m x'^2", potential);
+        refused(&text, &words);
+        assert_eq!(carried_out(&text), Vec::<String>::new(), "{potential}");
+    }
+    for (potential, right) in [("½ k x^2", "1/2 k x^2"), ("k sin x", "k sin(x)")] {
+        let offered = carried_out(&with_energy("1/2 m x'^2", potential));
+        let expected = read(&with_energy("1/2 m x'^2", right)).model.unwrap();
+        let model = read(&offered[0]).model.unwrap();
+        assert_eq!(
+            model.graph.text(model.lagrangian),
+            expected.graph.text(expected.lagrangian)
+        );
+    }
+    let comma = with_energy("1/2 m x'^2", "0").replace(
+        "parameters = { m = 1, l = 2, g = 9, k = 3 }",
+        "[parameters]\nl = 2\nm = 1,5",
+    );
+    let offered = carried_out(&comma);
+    assert!(
+        offered[0].ends_with(&comma[comma.find(",5").unwrap() + 2..])
+            && offered[0].contains("m = 1.5")
+    );
+    let table = "coordinates = [\"x\"]\nparameters = { k = [[0, 1]] }\nlagrangian = \"k x'^2\"\n";
+    refused(table, &["there are no tables of numbers"]);
+}
+
+/// Angles may be in degrees; other units stand beside their number.
+#[test]
+fn degrees_are_numbers() {
+    let start = |value: &str| {
+        let text = format!(
+            "coordinates = [\"x\"]\nlagrangian = \"x'^2/2 - cos(x)\"\n[initial]\nx = \"{value}\"\n"
+        );
+        let model = read(&text)
+            .model
+            .unwrap_or_else(|| panic!("{}", read(&text).diagnostics));
+        let given = model.initial.values.values().next().unwrap().value;
+        model.graph.text(given)
+    };
+    assert_eq!(start("30 deg"), start("pi/6"));
+    assert_eq!(start("2*15 degrees + 0"), start("pi/6"));
+    let twice = "coordinates = [\"x\"]\n[parameters]\na = { value = \"30 deg\", unit = \"deg\" }\n[lagrangian]\nL = \"x'^2/2 - cos(x - a)\"\n";
+    refused(twice, &["its unit is stated as `deg`"]);
+    let weight = "coordinates = [\"x\"]\nparameters = { m = \"1 kg\", k = 1, g = 1 }\nlagrangian = \"k g m x'^2/2\"\n";
+    refused(
+        weight,
+        &["state the unit beside the number", "unit = \"kg\""],
+    );
+    assert_eq!(carried_out(weight), Vec::<String>::new());
+    // A name of the model is what it says.
+    let named = "coordinates = [\"x\"]\nparameters = { deg = 2 }\nlagrangian = \"deg x'^2/2\"\n";
+    let model = read(named).model.unwrap();
+    assert!(model.graph.text(model.lagrangian).contains("deg"));
+}
+
+#[test]
+fn symbols_in_latex_are_read_or_refused() {
+    let with = |latex: &str| {
+        format!("coordinates = [\"x\"]\n[parameters]\nm = {{ value = 1, latex = '{latex}' }}\n[lagrangian]\nL = \"m x'^2/2\"\n")
+    };
+    let model = read(&with(r"\hat m_{\mathrm{p}}")).model.unwrap();
+    assert_eq!(model.symbols["m"], r"\hat m_{\mathrm{p}}");
+    refused(
+        &with(r"\input{x}"),
+        &["cannot be typeset", "input", "model.toml:3:26"],
+    );
+    refused(&with("x_"), &["cannot be typeset"]);
+}

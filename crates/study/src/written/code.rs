@@ -76,6 +76,28 @@ impl Inputs {
         }
     }
 
+    /// Parameters and controls that the model describes, with their places in the arrays.
+    fn described(&self, system: &System) -> Vec<String> {
+        let g = &system.graph;
+        let arrays = [("p", &self.parameters), ("u", &self.controls)];
+        let entries = arrays.into_iter().flat_map(|(array, symbols)| {
+            symbols
+                .iter()
+                .enumerate()
+                .map(move |(at, &symbol)| (array, at, symbol))
+        });
+        let line = |(array, at, symbol): (&str, usize, Symbol)| {
+            let note = system.notes.get(g.symbol_name(symbol))?;
+            let parts = [note.description.as_str(), note.unit.as_str()];
+            let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+            let is_value = g.symbol_order(symbol) == 0 && !parts.is_empty();
+            // A line ends a comment of C nowhere but where it is meant to.
+            let words = parts.join(", ").replace("*/", "* /").replace('\n', " ");
+            is_value.then(|| format!("  {array}[{at}] = {}: {words}", g.symbol_text(symbol)))
+        };
+        entries.filter_map(line).collect()
+    }
+
     fn functions<'a>(
         &self,
         system: &System,
@@ -91,10 +113,12 @@ impl Inputs {
             texts.join(", ")
         };
         let mut arrays = vec![
-            format!("q = ({})", listed(&self.coordinates)),
-            format!("z = ({})", listed(&state)),
-            format!("p = ({})", listed(&self.parameters)),
+            "t: the time".to_owned(),
+            format!("q = ({}), coordinates", listed(&self.coordinates)),
+            format!("z = ({}), the state beside them", listed(&state)),
+            format!("p = ({}), parameters", listed(&self.parameters)),
         ];
+        arrays.extend(self.described(system));
         if !self.masses.is_empty() {
             arrays.push(format!(
                 "m = ({}), masses with a law of their own",
@@ -107,9 +131,10 @@ impl Inputs {
                 listed(&self.controls)
             ));
         }
-        let about = |what: &str| -> Vec<String> {
+        let about = |what: &str, results: &[&str]| -> Vec<String> {
             let mut lines = vec![format!("{}: {what}", derivation.card.title)];
             lines.extend(arrays.iter().cloned());
+            lines.extend(results.iter().map(|&line| line.to_owned()));
             lines
         };
         let inputs = |second: (&'a str, Vec<Symbol>)| {
@@ -123,26 +148,33 @@ impl Inputs {
             }
             inputs
         };
-        let function = |name: &'a str, what: &str, inputs, outputs| CodeFunction {
-            name,
-            documentation: about(what),
-            time: Some(self.time),
-            inputs,
-            outputs,
-        };
+        let function =
+            |name: &'a str, (what, results): (&str, &[&str]), inputs, outputs| CodeFunction {
+                name,
+                documentation: about(what, results),
+                time: Some(self.time),
+                inputs,
+                outputs,
+            };
+        let velocities = format!("v = ({}), velocities", listed(&self.velocities));
+        let named = (equations.multipliers.iter()).map(|(l, _)| &system.constraints[*l].name);
+        let named: Vec<String> = named.map(|name| format!("lambda_{name}")).collect();
+        let multipliers = format!("lambda = ({}), multipliers", named.join(", "));
         let mut rates = vec![
             ("dq", lawful(equations.velocities.clone())),
             ("dz", lawful(equations.rates())),
         ];
         let mut state_in_words = "the rates of the state (q, z).";
+        let mut results = vec!["dq: the rates of q", "dz: the rates of z"];
         if !self.masses.is_empty() {
             let laws = equations.masses.iter().map(|(_, rate)| *rate);
             rates.push(("dm", lawful(laws.collect())));
             state_in_words = "the rates of the state (q, z, m).";
+            results.push("dm: the rates of m");
         }
         let mut functions = vec![function(
             &names[0],
-            state_in_words,
+            (state_in_words, &results),
             inputs(("z", state.clone())),
             rates,
         )];
@@ -151,7 +183,13 @@ impl Inputs {
         if let Some(definitions) = definitions {
             functions.push(function(
                 &names[1],
-                "the variables z of coordinates and velocities v = q'.",
+                (
+                    "the variables z of coordinates and velocities.",
+                    &[
+                        &velocities,
+                        "z, the result: the state beside the coordinates",
+                    ],
+                ),
                 inputs(("v", self.velocities.clone())),
                 vec![("z", lawful(definitions))],
             ));
@@ -164,7 +202,7 @@ impl Inputs {
                 .collect();
             functions.push(function(
                 &names[2],
-                "the multipliers of the constraints.",
+                ("the multipliers of the constraints.", &[&multipliers]),
                 inputs(("z", state)),
                 vec![("lambda", lawful(values))],
             ));

@@ -4,18 +4,19 @@ use super::printed::sections;
 use crate::derivation::{options_of, Derivation};
 use crate::typeset;
 use chetaev_mechanics::System;
-use chetaev_symbolic::print::{Document, Format};
+use chetaev_symbolic::print::{Document, Format, Options};
+use chetaev_symbolic::Expr;
 
 /// What stands before the first formulation.
 pub(crate) const BEGIN: &str = r"\documentclass{article}
 \usepackage[T1]{fontenc}
-\usepackage{amsmath,amssymb}
+\usepackage{amsmath,amssymb,longtable}
 \allowdisplaybreaks
 \begin{document}
 ";
 
 /// The document around its sections, with the table of symbols.
-pub(super) fn document(system: &System, sections: &str) -> String {
+pub(crate) fn document(system: &System, sections: &str) -> String {
     format!(
         "{BEGIN}\n{}\n{sections}\\end{{document}}\n",
         symbols(system)
@@ -39,7 +40,7 @@ pub(super) fn section(system: &System, derivation: &Derivation) -> String {
 }
 
 /// Aligned equations with numbers, where the printer aligns them without.
-fn numbered(printed: &str) -> String {
+pub(crate) fn numbered(printed: &str) -> String {
     let inside = printed
         .strip_prefix("\\begin{aligned}\n")
         .and_then(|rest| rest.strip_suffix("\n\\end{aligned}"));
@@ -49,39 +50,55 @@ fn numbered(printed: &str) -> String {
     }
 }
 
-/// Coordinates, quasi-velocities and parameters in the letters of the equations, beside the names of the model.
+/// Definitions of quasi-velocities, and of parameters by others; then a table of all symbols.
 fn symbols(system: &System) -> String {
     let options = typeset::print_options(system);
     let g = &system.graph;
-    let letter = |name: &str| {
-        let symbol = g.symbol(name, 0);
-        let text = Document::expressions(g, &[symbol], &options).render(Format::Latex);
-        text.trim().to_owned()
-    };
-    let mut text = String::from("\\section*{Symbols}\n\\begin{tabular}{lll}\n");
-    let mut rows = |kind: &str, names: &mut dyn Iterator<Item = &str>| {
-        for name in names {
-            text.push_str(&format!(
-                "${}$ & \\texttt{{{}}} & {kind} \\\\\n",
-                letter(name),
-                escaped(name)
-            ));
-        }
-    };
-    rows(
-        "coordinate",
-        &mut system.coordinates.iter().map(|c| c.name.as_str()),
-    );
-    rows(
-        "quasi-velocity",
-        &mut system.quasi_velocities.iter().map(|u| u.name.as_str()),
-    );
-    rows(
-        "parameter",
-        &mut system.parameters.iter().map(|p| p.name.as_str()),
-    );
-    text.push_str("\\end{tabular}\n");
+    let quasi_velocities = system.quasi_velocities.iter();
+    let defined: Vec<(Expr, Expr)> = quasi_velocities
+        .map(|u| (g.symbol(&u.name, 0), u.definition))
+        .chain(system.definitions.iter().copied())
+        .collect();
+    let mut text = String::new();
+    if !defined.is_empty() {
+        let document = Document::equations(g, &defined, &options);
+        let equations = numbered(document.render(Format::Latex).trim_end());
+        text.push_str(&format!("\\section*{{Definitions}}\n{equations}\n"));
+    }
+    text.push_str("\\section*{Symbols}\n\\begin{longtable}{llp{0.5\\textwidth}l}\n");
+    let coordinates = system.coordinates.iter().map(|c| ("coordinate", &c.name));
+    let quasi_velocities = (system.quasi_velocities.iter()).map(|u| ("quasi-velocity", &u.name));
+    let controls = (system.controls.iter()).map(|u| ("control", &u.name));
+    let masses = (system.masses.iter()).map(|m| ("mass that varies", &m.name));
+    let parameters = (system.parameters.iter()).map(|p| ("parameter", &p.name));
+    let multipliers: Vec<String> = (system.constraints.iter())
+        .map(|c| format!("lambda_{}", c.name))
+        .collect();
+    let multipliers = multipliers.iter().map(|name| ("multiplier", name));
+    let named = coordinates.chain(quasi_velocities).chain(controls);
+    for (kind, name) in named.chain(masses).chain(parameters).chain(multipliers) {
+        text.push_str(&row(system, &options, kind, name));
+    }
+    text.push_str("\\end{longtable}\n");
     text
+}
+
+/// A line of the table: the symbol, its name in the model, what it is, its unit.
+fn row(system: &System, options: &Options, kind: &str, name: &str) -> String {
+    let symbol = system.graph.symbol(name, 0);
+    let letter = Document::expressions(&system.graph, &[symbol], options).render(Format::Latex);
+    let note = system.notes.get(name).cloned().unwrap_or_default();
+    let meaning = match note.description.as_str() {
+        "" => kind.to_owned(),
+        description => format!("{kind}: {description}"),
+    };
+    format!(
+        "${}$ & \\texttt{{{}}} & {} & {} \\\\\n",
+        letter.trim(),
+        escaped(name),
+        escaped(&meaning),
+        escaped(&note.unit)
+    )
 }
 
 /// A heading that begins with a capital.
@@ -138,6 +155,16 @@ fn letter(sign: char) -> String {
         '≤' => "\\le",
         '≠' => "\\ne",
         '½' => "\\tfrac12",
+        '²' => "{}^2",
+        '³' => "{}^3",
+        '·' => "\\cdot",
+        '°' => "{}^\\circ",
+        '×' => "\\times",
+        'φ' => "\\varphi",
+        'ω' => "\\omega",
+        '→' => "\\to",
+        '∈' => "\\in",
+        '∞' => "\\infty",
         '₀' => "{}_0",
         '₁' => "{}_1",
         _ => return sign.to_string(),

@@ -185,6 +185,11 @@ fn as_json(system: &System, found: &[Result<Derivation, NotDerived>]) -> String 
 fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Value {
     let g = &system.graph;
     let card = derivation.card;
+    let options = options_of(system, derivation);
+    let latex = |e| {
+        let document = Document::expressions(g, &[e], &options);
+        document.render(Format::Latex).trim().to_owned()
+    };
     let groups: Vec<serde_json::Value> = derivation
         .groups
         .iter()
@@ -195,20 +200,18 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
                 .iter()
                 .zip(&group.labels)
                 .map(|(&(l, r), label)| {
-                    serde_json::json!({"label": label, "left": g.text(l), "right": g.text(r), "latex": format!("{} = {}", g.latex(l), g.latex(r))})
+                    serde_json::json!({"label": label, "left": g.text(l), "right": g.text(r), "latex": format!("{} = {}", latex(l), latex(r))})
                 })
                 .collect();
             serde_json::json!({"title": group.title, "general_form": group.schema.map(|s| s.text), "equations": equations})
         })
         .collect();
-    let options = options_of(system, derivation);
     let objects: Vec<serde_json::Value> = derivation
         .objects
         .iter()
         .map(|o| {
             let symbol = g.symbol(&o.name, 0);
-            let name = Document::expressions(g, &[symbol], &options).render(Format::Latex);
-            serde_json::json!({"name": o.name, "name_latex": name.trim(), "value": g.text(o.value), "latex": g.latex(o.value), "meaning": o.meaning})
+            serde_json::json!({"name": o.name, "name_latex": latex(symbol), "value": g.text(o.value), "latex": latex(o.value), "meaning": o.meaning})
         })
         .collect();
     let sources: Vec<serde_json::Value> = card

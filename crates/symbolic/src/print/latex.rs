@@ -423,6 +423,7 @@ fn piece(piece: &Piece) -> String {
             }
         }
         Piece::Derivative(letter) => format!("D{}", self::piece(letter)),
+        Piece::Stated(own) => own.latex(),
         Piece::Indices(own) => escaped(own),
         Piece::Primes(count) => "\\prime".repeat(*count),
         Piece::Greek(name, _) => match name.as_str() {

@@ -372,6 +372,7 @@ fn piece(piece: &Piece) -> String {
         Piece::Primes(count) => {
             format!("<mo lspace=\"0\" rspace=\"0\">{}</mo>", "′".repeat(*count))
         }
+        Piece::Stated(own) => own.mathml(),
         Piece::Derivative(letter) => row(&format!("<mi>D</mi>{}", self::piece(letter))),
         Piece::Accented(letter, accent) => {
             let letter = self::piece(letter);

@@ -18,6 +18,7 @@ mod names;
 mod operations;
 mod order;
 mod share;
+mod stated;
 mod sympy;
 mod text;
 
@@ -27,8 +28,9 @@ mod tests;
 pub use array::{array_function, ArrayFunction, ArrayLanguage};
 pub use code::{source_code, CodeError, CodeFunction, Language};
 pub use document::Document;
-pub use names::with_indices;
+pub use names::{as_stated, with_indices};
 pub use operations::Operations;
+pub use stated::{StatedSymbol, SymbolError};
 pub use sympy::{sympy_module, PythonSection};
 
 use crate::graph::Graph;
@@ -63,7 +65,8 @@ pub struct Options {
     /// The parameters in the order in which factors are to be written; others follow in alphabetic order, masses
     /// first.
     pub parameters: Vec<String>,
-    /// Other names to typeset: `u_1` as `omega_1`, `A_z_x` as [`with_indices`] writes it. Used by LaTeX and MathML, not by
+    /// Other names to typeset: `u_1` as `omega_1`, `A_z_x` as [`with_indices`] writes it, a symbol in LaTeX as
+    /// [`as_stated`] does. Used by LaTeX and MathML, not by
     /// the languages that are read again.
     pub display: BTreeMap<String, String>,
     /// Number of nodes per expression from which repeated parts are given names.

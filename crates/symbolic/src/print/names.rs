@@ -2,6 +2,7 @@
 //! by [`with_indices`] has upper indices too. Derivatives stand behind a comma, `u_1,12`, and a function of a tensor has primes and
 //! its argument: `A'_11(e)`.
 
+use super::stated::StatedSymbol;
 use crate::syntax::names::greek_letter;
 
 /// A piece of a name.
@@ -23,6 +24,8 @@ pub(crate) enum Piece {
     Indices(String),
     /// How often a function is differentiated.
     Primes(usize),
+    /// As the model states it.
+    Stated(StatedSymbol),
 }
 
 /// A sign that belongs to a letter.
@@ -70,6 +73,7 @@ impl TypesetName {
         is_function
             || !self.superscripts.is_empty()
             || matches!(letter, Piece::Accented(_, Accent::Star))
+            || matches!(letter, Piece::Stated(own) if own.is_raised())
     }
 }
 
@@ -83,6 +87,47 @@ pub fn with_indices(letter: &str, upper: &[&str], lower: &[&str]) -> String {
             .collect()
     };
     format!("{letter}{}{}", group('^', upper), group('_', lower))
+}
+
+/// What a name is displayed as whose symbol is stated in LaTeX ([`Options::display`](super::Options::display)).
+pub fn as_stated(latex: &str) -> String {
+    format!("${latex}$")
+}
+
+/// The symbol of [`as_stated`].
+fn stated(name: &str) -> Option<TypesetName> {
+    let latex = name.strip_prefix('$')?.strip_suffix('$')?;
+    Some(TypesetName {
+        head: Piece::Stated(StatedSymbol::read(latex).ok()?),
+        superscripts: Vec::new(),
+        subscripts: Vec::new(),
+        argument: None,
+    })
+}
+
+/// The Greek letter of a name that is cut short, as in `lam`, which is a word of Python.
+fn short_greek(name: &str) -> Option<&'static str> {
+    const SHORT: &[(&str, &str)] = &[
+        ("lam", "lambda"),
+        ("Lam", "Lambda"),
+        ("eps", "epsilon"),
+        ("gam", "gamma"),
+        ("Gam", "Gamma"),
+        ("sig", "sigma"),
+        ("kap", "kappa"),
+        ("omg", "omega"),
+    ];
+    let known = SHORT.iter().find(|(own, _)| *own == name);
+    known.map(|(_, greek)| *greek)
+}
+
+/// A letter with another one as its index, one a capital and one not: `Cc`, `rR`.
+fn two_letters(name: &str) -> Option<(char, char)> {
+    let mut letters = name.chars();
+    let (first, second) = (letters.next()?, letters.next()?);
+    let is_pair = first.is_ascii_alphabetic() && second.is_ascii_alphabetic();
+    let is_mixed = first.is_ascii_uppercase() != second.is_ascii_uppercase();
+    (is_pair && is_mixed && letters.next().is_none()).then_some((first, second))
 }
 
 /// The groups `{…}` behind a sign.
@@ -156,6 +201,9 @@ fn numbered(part: &str) -> Vec<Piece> {
 
 /// Splits a name at underscores and before final digits: `q_1`, `q1` and `q_{1}` of a person's hand are the same.
 pub(crate) fn typeset(name: &str) -> TypesetName {
+    if let Some(own) = stated(name) {
+        return own;
+    }
     if let Some(start) = name
         .find(['^', '_'])
         .filter(|&at| name[at + 1..].starts_with('{'))
@@ -180,17 +228,20 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
         first.trim_end_matches(|c: char| c.is_ascii_digit())
     };
     let mut pieces = Vec::new();
-    let head = if letters.is_empty() {
-        first
-    } else {
-        if letters.len() < first.len() {
-            pieces.push(piece(&first[letters.len()..]));
+    let head = if letters.is_empty() { first } else { letters };
+    let head = match two_letters(head) {
+        Some((letter, index)) => {
+            pieces.push(Piece::Letter(index));
+            Piece::Letter(letter)
         }
-        letters
+        None => piece(short_greek(head).unwrap_or(head)),
     };
+    if !letters.is_empty() && letters.len() < first.len() {
+        pieces.push(piece(&first[letters.len()..]));
+    }
     pieces.extend(parts.flat_map(numbered));
     TypesetName {
-        head: piece(head),
+        head,
         superscripts: Vec::new(),
         subscripts: subscripts(pieces),
         argument: None,
@@ -308,6 +359,13 @@ mod tests {
         assert_eq!(gradient.superscripts, [bare(Piece::Primes(1))]);
         assert_eq!(gradient.subscripts, [digits("11")]);
         assert_eq!(gradient.argument, Some(Box::new(typeset("e"))));
+        assert_eq!(typeset("lam_1").head, Piece::Greek("lambda".into(), 'λ'));
+        for (pair, letter, index) in [("Cc", 'C', 'c'), ("rR", 'r', 'R')] {
+            assert_eq!(typeset(pair).head, Piece::Letter(letter));
+            assert_eq!(typeset(pair).subscripts, [bare(Piece::Letter(index))]);
+        }
+        assert_eq!(typeset("gs").head, Piece::Word("gs".into()));
+        assert!(matches!(typeset(&as_stated("C_c")).head, Piece::Stated(_)));
         assert_eq!(typeset("mass").head, Piece::Word("mass".into()));
         assert_eq!(typeset("_").head, Piece::Word("_".into()));
     }

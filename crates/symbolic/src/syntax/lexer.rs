@@ -7,6 +7,7 @@ use super::ast::Relation;
 use super::diagnostic::Diagnostic;
 use super::names::{begins_name, continues_name, normalized, superscript_digit};
 use super::span::Span;
+use super::unknown::advice;
 
 /// Largest absolute value of a decimal exponent. A larger one is a slip of the pen, and exact arithmetic would fill
 /// the memory with its digits.
@@ -253,6 +254,11 @@ impl Lexer<'_> {
             '∫' | '∂' => {
                 base.hint("only derivatives with respect to the time can be written, as x'")
             }
+            '½' => base.hint("write 1/2").suggest(span, "(1/2)"),
+            '°' => base.hint("write `deg` for degrees").suggest(span, " deg"),
+            '|' => base.hint("write abs(x) for the absolute value"),
+            '?' | ':' => base.hint(advice("if").unwrap_or_default()),
+            '%' => base.hint(advice("mod").unwrap_or_default()),
             '.' => base.hint("write `*` for a product and x' for a derivative"),
             '\\' => base.hint("this is not TeX: write theta, sqrt(x), a/b"),
             _ if sign.is_alphabetic() => {

@@ -44,6 +44,19 @@ pub(crate) fn unknown_name(
             None => base,
         };
     }
+    if matches!(name, "then" | "else") {
+        return base.hint(advice("if").unwrap_or_default());
+    }
+    let is_call_elsewhere = matches!(
+        name,
+        "if" | "ifelse" | "piecewise" | "Piecewise" | "heaviside" | "Heaviside" | "min" | "max"
+    );
+    if let Some(advice) = advice(name).filter(|_| is_call_elsewhere) {
+        return base.hint(advice);
+    }
+    if matches!(name, "np" | "numpy" | "math" | "sp" | "sympy" | "Math") {
+        return base.hint("functions stand by themselves: write sin(x), sqrt(x), pi");
+    }
     if matches!(name, "deg" | "degree" | "degrees" | "grad") {
         return base.hint("angles are in radians: 30 degrees are 30 pi/180; or state a parameter with its unit, as in slope = { value = 30, unit = \"deg\" }");
     }

@@ -50,15 +50,23 @@ impl Parser<'_> {
             .operands
             .last()
             .map_or(Span::empty(0), |operand| operand.span);
-        self.error(
-            Diagnostic::error(
-                "number-after-factor",
-                before.to(span),
-                format!("the number `{number}` follows without an operator"),
-            )
-            .hint("write the number first in an implicit product, or `*`, `^` or `_` before it")
-            .suggest(Span::new(before.end, span.end), format!("*{number}")),
-        );
+        let between = Span::new(before.end, span.start).text(self.source);
+        let diagnostic = Diagnostic::error(
+            "number-after-factor",
+            before.to(span),
+            format!("the number `{number}` follows without an operator"),
+        )
+        .hint("write the number first in an implicit product, or `*`, `^` or `_` before it");
+        // A sign without meaning in between, or a word of another language before it, says that something else was meant.
+        let word = before.text(self.source);
+        let is_plain = between.trim().is_empty() && !matches!(word, "else" | "then" | "if");
+        self.error(match is_plain {
+            true => {
+                let place = Span::new(before.end, span.end);
+                diagnostic.suggest(place, format!("*{number}"))
+            }
+            false => diagnostic,
+        });
         self.implicit_product(span)
     }
 
@@ -70,7 +78,8 @@ impl Parser<'_> {
             .filter(|operand| !operand.grouped)
             .and_then(|operand| {
                 let (name, order) = self.tree.plain_name(operand.node)?;
-                (order == 0).then(|| (name.to_owned(), operand.span))
+                let written = format!("{name}{}", "'".repeat(order as usize));
+                Some((written, operand.span))
             });
         self.implicit_product(span);
         self.at += 1;
