@@ -225,6 +225,14 @@ class Counts(Result):
         self.notes = notes
 
 
+class Steps(Result):
+    """A derivation step by step, each step proved as it is written; ``latex`` for a whole document."""
+
+    def __init__(self, text: str, notes: list[str]) -> None:
+        super().__init__({"text": text, "notes": notes}, text)
+        self.notes = notes
+
+
 class Comparison(Result):
     """Two forms of the equations held against each other: what differs, and why it vanishes."""
 

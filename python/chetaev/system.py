@@ -23,6 +23,7 @@ from .results import (
     Stability,
     StabilityMap,
     Steady,
+    Steps,
     Study,
     Trajectory,
 )
@@ -313,6 +314,29 @@ class System:
             asked = (names or list(_DEFAULT), all)
             text, notes = self._native.derive(*asked, "json", tell)
         return Derivation(self, asked, json.loads(text), notes)
+
+    def steps(
+        self,
+        formulation: str | Iterable[str] = (),
+        *,
+        all: bool = False,
+        notation: Literal["text", "latex"] = "text",
+        progress: bool = False,
+    ) -> Steps:
+        """Writes a derivation step by step, as on a board: ``derive --steps``.
+
+        Parameters
+        ----------
+        formulation : str or list of str
+            Names of formulations; the shortest form when left out.
+        all : bool
+            Every formulation that is written step by step.
+        notation : "text" or "latex"
+            How it is written.
+        """
+        names = [formulation] if isinstance(formulation, str) else list(formulation)
+        with _Progress(progress) as tell:
+            return Steps(*self._native.steps(names or ["reduced"], all, notation, tell))
 
     def compare(self, a: str, b: str, *, progress: bool = False) -> Comparison:
         """Holds two forms of the equations against each other: ``derive --compare a b``."""

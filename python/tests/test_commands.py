@@ -40,6 +40,7 @@ NOT_KEYWORDS_OF = {
     ("study", "show"): "all verdicts are in the result",
     ("principles", "all"): "all verdicts are in the result",
     ("check", "lowered"): "the method lowered",
+    ("derive", "steps"): "the method steps",
     ("linearize", "along"): "the method along",
     ("stability", "plot"): "the method picture of its result",
     ("simulate", "sensitivity"): "the method sensitivity",

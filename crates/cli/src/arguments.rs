@@ -248,6 +248,7 @@ pub(crate) struct Stability {
 #[command(after_help = "Examples:
   chetaev derive gallery/skate-level/model.toml
   chetaev derive model.toml --formulation voronets --as latex
+  chetaev derive model.toml --steps
   chetaev derive model.toml --formulation canonical --as c > canonical.c
   chetaev derive model.toml --compare voronets gibbs-appell
   chetaev derive gallery/fields/plate/model.toml
@@ -267,6 +268,9 @@ pub(crate) struct Derive {
     /// Notation; comparisons are text
     #[arg(long = "as", value_enum, default_value_t = Notation::Text, conflicts_with = "compare")]
     pub(crate) notation: Notation,
+    /// Write the derivation step by step, as on a board; each step is proved as it is written (text and latex; routh, maggi, reduced, voronets, chaplygin)
+    #[arg(long, conflicts_with_all = ["compare", "count"])]
+    pub(crate) steps: bool,
     /// The operations of the printed equations (+ − × ÷, powers, roots, functions) in their place
     #[arg(long, conflicts_with_all = ["compare", "notation"])]
     pub(crate) count: bool,

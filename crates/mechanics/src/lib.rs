@@ -3,7 +3,7 @@
 //! - The system: [`system`], [`constraint`], [`particles`], [`bodies`], [`mass`] (masses that vary, thrust), [`order`] (constraints of order m);
 //! - what is derived once: [`terms`] (`W, b, J, g`), [`selection`] (independent constraints and velocities), [`frame`],
 //!   [`characteristics`], [`curvature`], [`linear`];
-//! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`];
+//! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`], and their derivation in [`steps`];
 //! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);
 //! - the set where all constraints hold: [`positions`] (what finite ones determine);
 //! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`components`] (they are products);
@@ -43,6 +43,7 @@ pub mod sample;
 pub mod selection;
 pub mod speeds;
 mod stated;
+pub mod steps;
 pub mod system;
 pub mod terms;
 pub mod words;

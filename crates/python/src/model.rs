@@ -11,6 +11,7 @@ use chetaev::model::model::{ModelText, Precision};
 use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
 use chetaev::orbits::variational::Order;
+use chetaev::study::board;
 use chetaev::study::steady::steady;
 use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
@@ -373,6 +374,27 @@ impl Model {
         self.with_equations(py, tell, |cx, show| {
             show("deriving and simplifying");
             written::counts(cx, &asked, all)
+        })
+    }
+
+    /// The derivations of formulations step by step, and notes: `derive --steps`.
+    #[pyo3(signature = (names, all, notation, tell=None))]
+    fn steps(
+        &self,
+        py: Python<'_>,
+        names: Vec<String>,
+        all: bool,
+        notation: &str,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let Some(notation) = Notation::named(notation) else {
+            let said = format!("there is no notation `{notation}`");
+            return Err(problem::of_option(py, &said));
+        };
+        let asked = formulations(py, &names, all)?;
+        self.with_equations(py, tell, |cx, show| {
+            show("deriving step by step");
+            board::written(cx, &asked, (notation, all))
         })
     }
 

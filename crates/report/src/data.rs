@@ -302,6 +302,8 @@ pub struct EquationSection {
     pub definitions: Vec<Definition>,
     /// Full id of the claim that proves the section, if any.
     pub claim: Option<String>,
+    /// What stands open above a section that is shown closed: an exercise, whose solution the section is.
+    pub exercise: Option<String>,
     /// Shown closed, opened by the reader; for long material.
     pub collapsed: bool,
     /// Whether the page leaves out its own numbers, as the equations have numbers of theirs.
@@ -318,6 +320,8 @@ pub struct Equation {
     pub label: Option<String>,
     /// The label as a formula, shown in its place.
     pub name: Option<Formula>,
+    /// A heading above the equation, where another part of the section begins.
+    pub heading: Option<String>,
     /// A sentence shown in place of a formula that is not printed.
     pub omitted: Option<String>,
     /// A sentence under the equation.

@@ -108,6 +108,11 @@ pub(crate) fn sections(html: &mut Html, report: &Report, words: &Words) {
     let mut number = 0;
     for (index, section) in report.sections.iter().enumerate() {
         let anchor = anchor(section, index);
+        if let Some(exercise) = &section.exercise {
+            html.raw("<p class=\"exercise\">");
+            sentence(html, exercise);
+            html.raw("</p>\n");
+        }
         let close = if section.collapsed {
             html.raw("<details class=\"equations\"")
                 .attribute("id", anchor)
@@ -163,6 +168,11 @@ fn body(
     }
     paragraphs(html, &section.explanation);
     for equation in section.equations.iter().take(ROWS) {
+        if let Some(heading) = &equation.heading {
+            html.raw("<h4 class=\"step\">");
+            sentence(html, heading);
+            html.raw("</h4>\n");
+        }
         *number += 1;
         html.raw("<div class=\"equation\"")
             .attribute("id", format!("equation-{number}"))

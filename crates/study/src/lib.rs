@@ -9,11 +9,12 @@
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`steady`](mod@steady): all steady motions; [`stability`](mod@stability): linear equations about one; [`follow`](mod@follow): steady motions and orbits over a range of a parameter; [`sensitivity`](mod@sensitivity): derivatives of a motion; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
-//! - for people: [`derivation`], [`written`] (equations in every notation), [`explanation`],
+//! - for people: [`derivation`], [`board`](mod@board) (it step by step), [`written`] (equations in every notation), [`explanation`],
 //!   [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
+pub mod board;
 pub mod derivation;
 pub mod error;
 mod expectations;

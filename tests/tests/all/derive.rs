@@ -3,7 +3,7 @@
 
 use chetaev::model::{Loaded, ModelBuilder, Style};
 use chetaev::symbolic::Expr;
-use chetaev_tests::places::gallery;
+use chetaev_tests::places::{gallery, root, scratch};
 use chetaev_tests::program::{run, text};
 use chetaev_tests::studied::loaded;
 use serde_json::Value;
@@ -582,4 +582,77 @@ fn a_comparison_takes_no_notation() {
     ]);
     assert_eq!(finished.status, Some(2), "{}", finished.both());
     assert!(finished.err.contains("--compare"), "{}", finished.err);
+}
+
+/// Steps are written as text and as a document of LaTeX; other notations, and formulations without steps, are refused with what there is.
+#[test]
+fn derivations_are_written_step_by_step() {
+    let sleigh = root().join("gallery/chaplygin-sleigh/model.toml");
+    let steps = |arguments: &[&str]| {
+        let mut words = vec!["derive", text(&sleigh), "--steps"];
+        words.extend(arguments);
+        run(&words)
+    };
+    let plain = steps(&[]);
+    assert_eq!(plain.status, Some(0), "{}", plain.both());
+    for line in [
+        "     C_w = -m a u w",
+        "     u' = a w^2",
+        "     lambda_blade = m J u w/(J + m a^2)",
+    ] {
+        assert!(
+            plain.out.lines().any(|own| own == line),
+            "{line}\n{}",
+            plain.out
+        );
+    }
+    let latex = steps(&["--as", "latex", "--formulation", "maggi"]);
+    assert_eq!(latex.status, Some(0), "{}", latex.both());
+    assert!(is_a_document(&latex.out), "{}", latex.out);
+    let other = steps(&["--as", "json"]);
+    assert!(other.status != Some(0) && other.both().contains("--as latex"));
+    let none = steps(&["--formulation", "gauss"]);
+    assert!(none.both().contains("`reduced`"), "{}", none.both());
+}
+
+/// Environments are closed in the order opposite to that in which they were opened, braces are in pairs, and every line of an
+/// alignment has one place to align at.
+fn is_a_document(latex: &str) -> bool {
+    let mut open = Vec::new();
+    for part in latex.split('\\').skip(1) {
+        if let Some(rest) = part.strip_prefix("begin{") {
+            open.push(rest.split('}').next());
+        } else if let Some(rest) = part.strip_prefix("end{") {
+            if open.pop() != Some(rest.split('}').next()) {
+                return false;
+            }
+        }
+    }
+    let aligned = latex.split("\\begin{align}\n").skip(1);
+    let mut aligned = aligned.filter_map(|rest| rest.split("\n\\end{align}").next());
+    let is_aligned = aligned.all(|lines| lines.split("\\\\\n").all(|line| line.contains('&')));
+    open.is_empty()
+        && balanced(latex)
+        && is_aligned
+        && latex.starts_with("\\documentclass")
+        && latex.trim_end().ends_with("\\end{document}")
+}
+
+/// A symbol that the model states stands in the equations and in the table of symbols, with its unit and what it is.
+#[test]
+fn symbols_of_the_model_are_typeset() {
+    let folder = scratch("symbols");
+    let path = folder.join("model.toml");
+    let model = "coordinates = { theta = { unit = \"rad\", description = \"angle\" } }\n[parameters]\nm = { value = 1, unit = \"kg\", latex = 'm_{\\mathrm{bob}}', description = \"mass\" }\nlam = { value = 2, unit = \"N m/rad\" }\nrR = { value = 1, unit = \"m\" }\n[lagrangian]\nT = \"1/2 m rR^2 theta'^2\"\nV = \"1/2 lam theta^2\"\n";
+    std::fs::write(&path, model).expect("a scratch folder");
+    let latex = derived(&path, "latex");
+    assert!(is_a_document(&latex), "{latex}");
+    for own in [
+        "m_{\\mathrm{bob}} r_R^2 \\ddot{\\theta}",
+        "\\lambda \\theta",
+        "$m_{\\mathrm{bob}}$ & \\texttt{m} & parameter: mass & kg",
+        "$\\theta$ & \\texttt{theta} & coordinate: angle & rad",
+    ] {
+        assert!(latex.contains(own), "{own}\n{latex}");
+    }
 }

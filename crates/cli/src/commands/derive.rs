@@ -6,6 +6,7 @@ use crate::progress::ProgressLine;
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::mechanics::card::Relation;
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
+use chetaev::study::board;
 use chetaev::study::derivation::claim_of;
 use chetaev::study::registry;
 use chetaev::study::written::{comparison, counts, equations, prepared, NotWritten, Notation};
@@ -16,6 +17,10 @@ const DEFAULT: [&str; 2] = ["routh", "maggi"];
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     if let Some(loaded) = files::functional(&arguments.model) {
+        if arguments.steps {
+            error("steps are written of mechanical systems; this model is a functional of fields");
+            return INPUT;
+        }
         return super::functional::derive(arguments.notation, loaded);
     }
     let Some(read) = files::model(&arguments.model) else {
@@ -49,6 +54,13 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             let show = |what: &str| line.show(what, None);
             comparison(&cx, (a, b), &show)
         }),
+        _ if arguments.steps => {
+            let names = asked(arguments, &system);
+            with_progress(|line| {
+                line.show("deriving step by step", None);
+                board::written(&cx, &names, (arguments.notation.into(), arguments.all))
+            })
+        }
         _ if arguments.count => {
             let names = asked(arguments, &system);
             with_progress(|line| {
@@ -79,7 +91,8 @@ fn asked(arguments: &Arguments, system: &System) -> Vec<&'static dyn Formulation
         return FORMULATIONS.to_vec();
     }
     let named = |names: &mut dyn Iterator<Item = &str>| names.filter_map(formulation).collect();
-    let is_single = arguments.count || Notation::from(arguments.notation).is_of_arrays();
+    let is_single =
+        arguments.count || arguments.steps || Notation::from(arguments.notation).is_of_arrays();
     match arguments.formulation.is_empty() {
         true if is_single && system.order() == 1 => named(&mut ["reduced"].into_iter()),
         true if is_single => named(&mut ["routh"].into_iter()),

@@ -57,6 +57,9 @@ pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
 
 pub(crate) use maggi::left_sides as maggi_left_sides;
+pub(crate) use reduced_form::characteristics as reduced_characteristics;
+pub(crate) use routh::solve as solved_with_multipliers;
+pub(crate) use voronets::natural as natural_characteristics;
 
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};

@@ -99,7 +99,7 @@ impl Formulation for Reduced {
 pub const DEFINITIONS: &str = "quasi-velocities";
 
 /// The characteristics the caller insists on, those of the model, those chosen, or independent velocities; with whether they are chosen.
-fn characteristics(basis: &Basis<'_>) -> Result<(Characteristics, bool), DeriveError> {
+pub(crate) fn characteristics(basis: &Basis<'_>) -> Result<(Characteristics, bool), DeriveError> {
     let system = basis.system;
     let is_given = basis.characteristics.is_some()
         || system.characteristics.is_some()

@@ -117,7 +117,7 @@ fn reactive_objects(basis: &Basis<'_>) -> Vec<NamedExpr> {
 }
 
 /// The bordered system, solved as one node: accelerations, then multipliers of the selected rows.
-fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
+pub(crate) fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
     let (system, terms) = (basis.system, basis.terms);
     let g = &system.graph;
     let (n, rows) = (system.n(), &basis.selection.rows);

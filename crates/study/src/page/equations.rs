@@ -1,5 +1,6 @@
 //! Lagrangian, constraints and the equations of motion, typeset.
 
+use crate::board;
 use crate::derivation::{check_applies, claim_of};
 use crate::study::Study;
 use crate::typeset::{length_in_words, Typesetter};
@@ -54,7 +55,13 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
             forms.push(other_formulation(card, &derived, set));
         }
     }
-    sections.extend(shortest_first(forms));
+    let forms = shortest_first(forms);
+    let open = forms.first().filter(|form| !form.collapsed);
+    let steps = open.and_then(|form| board::section(&cx, &form.id, set));
+    let mut forms = forms.into_iter();
+    sections.extend(forms.next());
+    sections.extend(steps);
+    sections.extend(forms);
     sections
 }
 

@@ -2,3 +2,4 @@
 //! `cargo test -p chetaev-study --test all MODULE::`.
 
 mod integrals_along;
+mod steps;
