@@ -346,10 +346,7 @@ impl Model {
         notation: &str,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, Vec<String>)> {
-        let Some(notation) = Notation::named(notation) else {
-            let said = format!("there is no notation `{notation}`");
-            return Err(problem::of_option(py, &said));
-        };
+        let notation = notation_named(py, notation)?;
         let asked = formulations(py, &names, all)?;
         self.with_equations(py, tell, |cx, show| {
             let mut told = |one: &'static dyn Formulation, found: Option<&Result<_, _>>| {
@@ -387,10 +384,7 @@ impl Model {
         notation: &str,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, Vec<String>)> {
-        let Some(notation) = Notation::named(notation) else {
-            let said = format!("there is no notation `{notation}`");
-            return Err(problem::of_option(py, &said));
-        };
+        let notation = notation_named(py, notation)?;
         let asked = formulations(py, &names, all)?;
         self.with_equations(py, tell, |cx, show| {
             show("deriving step by step");
@@ -766,4 +760,11 @@ pub(crate) fn gallery(py: Python<'_>, name: Option<&str>) -> PyResult<(String, P
         texts,
         entry.readme().to_owned(),
     ))
+}
+
+fn notation_named(py: Python<'_>, name: &str) -> PyResult<Notation> {
+    Notation::named(name).ok_or_else(|| {
+        let said = format!("there is no notation `{name}`");
+        problem::of_option(py, &said)
+    })
 }

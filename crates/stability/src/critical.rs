@@ -6,8 +6,10 @@
 use crate::branching::{Branching, Leading};
 use crate::decision::About;
 use crate::levels::Levels;
-use crate::steady::{closed, kernel, solution};
-use chetaev_symbolic::{Expr, Graph};
+use crate::steady::{closed, kernel, solution, times};
+use chetaev_symbolic::Expr;
+use dashu_ratio::RBig;
+use std::cmp::Ordering;
 
 /// `c xᵐ`; no term where all that were looked at vanish.
 pub(crate) struct Critical {
@@ -20,10 +22,29 @@ pub(crate) struct Critical {
     pub(crate) nonzero: Vec<Expr>,
 }
 
+/// What the first term says.
+pub(crate) struct First {
+    /// m.
+    pub(crate) order: usize,
+    /// The sign of c, where it is known.
+    pub(crate) sign: Option<Ordering>,
+}
+
 impl Critical {
     /// What must keep its sign.
     pub(crate) fn functions(&self) -> Vec<Expr> {
         [self.nonzero.clone(), vec![self.rate]].concat()
+    }
+
+    /// The first term with the sign of c, where nothing that was divided by vanishes at a value of the parameter.
+    pub(crate) fn first(&self, about: &About<'_>, at: Option<&RBig>) -> Option<First> {
+        let sign = |e: Expr| about.question.sign(about.graph(), e, at);
+        let is_apart = |&e: &Expr| sign(e).is_some_and(|s| s != Ordering::Equal);
+        let term = self.term.as_ref()?;
+        self.nonzero.iter().all(is_apart).then(|| First {
+            order: term.order,
+            sign: sign(self.rate),
+        })
     }
 
     /// The critical direction where zero has this multiplicity on the levels of integrals, one eigenvector there, and no imaginary pair beside it.
@@ -83,15 +104,6 @@ impl Critical {
             nonzero,
         })
     }
-}
-
-/// The product of a matrix and a vector.
-fn times(g: &Graph, rows: &[Vec<Expr>], x: &[Expr]) -> Vec<Expr> {
-    let row = |row: &Vec<Expr>| {
-        let terms = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x]));
-        closed(g, g.add(&terms.collect::<Vec<_>>()))
-    };
-    rows.iter().map(row).collect()
 }
 
 /// The first term of the equation that is left.

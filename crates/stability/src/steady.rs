@@ -219,6 +219,15 @@ pub(crate) fn echelon(g: &Graph, rows: &mut [Vec<Expr>], columns: usize) -> Pivo
     pivots
 }
 
+/// The product of a matrix and a vector.
+pub(crate) fn times(g: &Graph, rows: &[Vec<Expr>], x: &[Expr]) -> Vec<Expr> {
+    let row = |row: &Vec<Expr>| {
+        let terms = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x]));
+        closed(g, g.add(&terms.collect::<Vec<_>>()))
+    };
+    rows.iter().map(row).collect()
+}
+
 /// A basis of the vectors x with `A x = 0`, each with a one where all others have zero, and what was divided by.
 pub(crate) fn kernel(g: &Graph, a: &[Vec<Expr>], columns: usize) -> (Vec<Vec<Expr>>, Vec<Expr>) {
     let mut rows = a.to_vec();

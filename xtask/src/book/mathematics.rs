@@ -1,7 +1,8 @@
 //! Mathematics of the book, `$…$` and `$$…$$`, as MathML.
 
 use pulldown_latex::config::DisplayMode;
-use pulldown_latex::{push_mathml, Parser, RenderConfig, Storage};
+use pulldown_latex::{push_mathml, Parser, ParserError, RenderConfig, Storage};
+use std::fmt::{Display, Formatter};
 
 /// A text with its formulas typeset, and what could not be.
 pub(crate) fn typeset(text: &str) -> (String, Vec<String>) {
@@ -75,18 +76,35 @@ fn formula(text: &str) -> Option<(usize, &str, DisplayMode)> {
     is_formula.then_some((end + 2, source, DisplayMode::Inline))
 }
 
+/// Why a formula has no MathML.
+enum NotTypeset {
+    /// It is no formula of LaTeX that is read.
+    Unread(ParserError),
+    /// It could not be written.
+    Unwritten(std::io::Error),
+}
+
+impl Display for NotTypeset {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NotTypeset::Unread(problem) => f.write_str(&one_line(&problem.to_string())),
+            NotTypeset::Unwritten(problem) => problem.fmt(f),
+        }
+    }
+}
+
 /// MathML in one line, as what stands in several would be read as several paragraphs.
-fn mathml(source: &str, display_mode: DisplayMode) -> Result<String, String> {
+fn mathml(source: &str, display_mode: DisplayMode) -> Result<String, NotTypeset> {
     let storage = Storage::new();
     let events: Result<Vec<_>, _> = Parser::new(source, &storage).collect();
-    let events = events.map_err(|problem| one_line(&problem.to_string()))?;
+    let events = events.map_err(NotTypeset::Unread)?;
     let config = RenderConfig {
         display_mode,
         ..RenderConfig::default()
     };
     let mut out = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
-    push_mathml(&mut out, events, config).map_err(|problem| problem.to_string())?;
+    push_mathml(&mut out, events, config).map_err(NotTypeset::Unwritten)?;
     // The library forgets a space between these attributes.
     let out = one_line(&out).replace("\"minsize=", "\" minsize=");
     Ok(unread(&out))

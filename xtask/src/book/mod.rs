@@ -90,24 +90,38 @@ const PARTS: [&str; 6] = [
     "checked.md",
 ];
 
+/// A file or folder that could not be read.
+#[derive(Debug)]
+pub(crate) struct Unreadable {
+    path: PathBuf,
+    problem: std::io::Error,
+}
+
+impl std::fmt::Display for Unreadable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.problem)
+    }
+}
+
 impl Book {
-    pub(crate) fn read(docs: &Path) -> Result<Book, String> {
+    pub(crate) fn read(docs: &Path) -> Result<Book, Unreadable> {
         let mut book = Book {
             pages: Vec::new(),
             others: Vec::new(),
             problems: Vec::new(),
             docs: docs.to_path_buf(),
         };
-        let of_file = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
+        let unreadable = |path: &Path, problem| Unreadable {
+            path: path.to_path_buf(),
+            problem,
         };
+        let of_file = |path: &Path| std::fs::read_to_string(path).map_err(|e| unreadable(path, e));
         let works = bibliography::read(&of_file(&docs.join("references.bib"))?);
         let mut open: Vec<PathBuf> = PARTS.iter().map(PathBuf::from).collect();
         while let Some(part) = open.pop() {
             let path = docs.join(&part);
             if path.is_dir() {
-                let entries =
-                    std::fs::read_dir(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+                let entries = std::fs::read_dir(&path).map_err(|e| unreadable(&path, e))?;
                 open.extend(
                     entries
                         .filter_map(Result::ok)

@@ -3,7 +3,7 @@
 //! On the centre manifold the motion is `x' = y`, `y' = c xᵐ + …` where y = 0. Where m is even the equilibrium has a cusp or is a saddle and node in one, and where
 //! m is odd and c positive it is a saddle (Dumortier, Llibre, Artés 2006, theorem 3.5): unstable. Where m is odd and c negative further terms decide.
 
-use crate::critical::Critical;
+use crate::critical::{Critical, First};
 use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
@@ -37,17 +37,10 @@ impl Method for DoubleZero {
             return Answer::NotApplicable;
         };
         let g = about.graph();
-        let sign = |e: Expr| about.question.sign(g, e, at);
-        let is_apart = |&e: &Expr| sign(e).is_some_and(|s| s != Ordering::Equal);
-        let Some(term) = own
-            .term
-            .as_ref()
-            .filter(|_| own.nonzero.iter().all(is_apart))
-        else {
+        let Some(First { order: m, sign }) = own.first(about, at) else {
             return Answer::NotApplicable;
         };
-        let m = term.order;
-        match sign(own.rate) {
+        match sign {
             Some(Ordering::Greater) => {}
             Some(Ordering::Less) if m % 2 == 0 => {}
             Some(Ordering::Less) => {

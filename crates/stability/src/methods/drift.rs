@@ -9,7 +9,7 @@ use crate::decision::About;
 use crate::integrals::Jet;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
-use crate::steady::{closed, kernel};
+use crate::steady::{closed, kernel, times};
 use crate::theorem::{Answer, Instability, Method};
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
@@ -75,15 +75,8 @@ fn running(about: &About<'_>) -> Option<Running> {
         return None;
     }
     let masses = own.masses();
-    let times = |rows: &[Vec<Expr>], x: &[Expr]| -> Vec<Expr> {
-        let row = |row: &Vec<Expr>| {
-            let terms = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x]));
-            closed(g, g.add(&terms.collect::<Vec<_>>()))
-        };
-        rows.iter().map(row).collect()
-    };
     // The tangent at which the chain ends is a combination of those of the basis: `A h = E Σ κ v` for h and κ.
-    let images: Vec<Vec<Expr>> = tangents.iter().map(|v| times(&masses, v)).collect();
+    let images: Vec<Vec<Expr>> = tangents.iter().map(|v| times(g, &masses, v)).collect();
     let padded = |row: usize| {
         images
             .iter()
@@ -97,7 +90,7 @@ fn running(about: &About<'_>) -> Option<Running> {
     let (chains, further) = kernel(g, &wide, n + family);
     let moves = |chain: &&Vec<Expr>| chain[n..].iter().any(|&e| !g.is_zero(e));
     let chain = chains.iter().find(moves)?;
-    let along = |gradient: &[Expr]| times(&[gradient.to_vec()], &chain[..n])[0];
+    let along = |gradient: &[Expr]| times(g, &[gradient.to_vec()], &chain[..n])[0];
     let integrals = about.integrals();
     let serves = |jet: &&Jet| {
         !jet.falls && !g.is_zero(along(&jet.gradient)) && is_constant(about, jet, &tangents)

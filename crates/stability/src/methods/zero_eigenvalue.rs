@@ -6,7 +6,7 @@
 //! (Malkin 1952, § 70, on perturbations that act constantly).
 
 use crate::branching::HIGHEST;
-use crate::critical::Critical;
+use crate::critical::{Critical, First};
 use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
@@ -40,19 +40,12 @@ impl Method for ZeroEigenvalue {
             return Answer::NotApplicable;
         };
         let g = about.graph();
-        let sign = |e: Expr| about.question.sign(g, e, at);
-        let is_apart = |&e: &Expr| sign(e).is_some_and(|s| s != Ordering::Equal);
-        let Some(term) = own
-            .term
-            .as_ref()
-            .filter(|_| own.nonzero.iter().all(is_apart))
-        else {
+        let Some(First { order: m, sign }) = own.first(about, at) else {
             return Answer::Open(format!(
                 "one eigenvalue is zero{}, and on the centre manifold the motion has no term up to the order {HIGHEST}",
                 own.levels
             ));
         };
-        let m = term.order;
         let theorem = format!(
             "by Lyapunov's theorem on one zero eigenvalue: all others lie left of the axis{}, and on the centre manifold the motion is x' = c x^{m} + ...",
             own.levels
@@ -64,7 +57,7 @@ impl Method for ZeroEigenvalue {
                 why: format!("{theorem} with {why}: the motion is unstable"),
             })
         };
-        match sign(own.rate) {
+        match sign {
             Some(Ordering::Equal) | None => {
                 Answer::Open("the first term on the centre manifold has no sign".into())
             }

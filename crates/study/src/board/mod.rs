@@ -3,7 +3,7 @@
 //! What is not proved is not written as true: the step says so in its place.
 
 mod page;
-mod printed;
+mod print;
 mod words;
 
 pub(crate) use page::section;
@@ -214,5 +214,5 @@ pub fn written(
             Err(_) => {}
         }
     }
-    printed::text(cx.system, &boards, notation)
+    print::text(cx.system, &boards, notation)
 }

@@ -1,6 +1,6 @@
 //! A derivation on the page: an exercise with the solution folded.
 
-use super::{board, options, printed::said, words, Board};
+use super::{board, options, print::said, words, Board};
 use crate::typeset::Typesetter;
 use chetaev_mechanics::{formulation, Context};
 use chetaev_report::data::{Equation, EquationSection};

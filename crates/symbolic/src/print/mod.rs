@@ -18,7 +18,7 @@ mod names;
 mod operations;
 mod order;
 mod share;
-mod stated;
+mod symbol;
 mod sympy;
 mod text;
 
@@ -30,7 +30,7 @@ pub use code::{source_code, CodeError, CodeFunction, Language};
 pub use document::Document;
 pub use names::{as_stated, with_indices};
 pub use operations::Operations;
-pub use stated::{StatedSymbol, SymbolError};
+pub use symbol::{StatedSymbol, SymbolError};
 pub use sympy::{sympy_module, PythonSection};
 
 use crate::graph::Graph;

@@ -2,7 +2,7 @@
 //! by [`with_indices`] has upper indices too. Derivatives stand behind a comma, `u_1,12`, and a function of a tensor has primes and
 //! its argument: `A'_11(e)`.
 
-use super::stated::StatedSymbol;
+use super::symbol::StatedSymbol;
 use crate::syntax::names::greek_letter;
 
 /// A piece of a name.

@@ -60,12 +60,11 @@ impl Parser<'_> {
         // A sign without meaning in between, or a word of another language before it, says that something else was meant.
         let word = before.text(self.source);
         let is_plain = between.trim().is_empty() && !matches!(word, "else" | "then" | "if");
-        self.error(match is_plain {
-            true => {
-                let place = Span::new(before.end, span.end);
-                diagnostic.suggest(place, format!("*{number}"))
-            }
-            false => diagnostic,
+        self.error(if is_plain {
+            let place = Span::new(before.end, span.end);
+            diagnostic.suggest(place, format!("*{number}"))
+        } else {
+            diagnostic
         });
         self.implicit_product(span)
     }
