@@ -6,7 +6,8 @@ use chetaev_mechanics::steps::{steps, StepKind, Steps};
 use chetaev_mechanics::{formulation, Context, Manifold, Prepared, Prover, System};
 use chetaev_model::{load, NoFiles};
 use chetaev_study::board::{board, checked, Board, BoardStep, Checked};
-use chetaev_study::registry;
+use chetaev_study::page::report;
+use chetaev_study::{registry, study, ClaimSelection, Hooks, StudyOptions};
 use chetaev_symbolic::meter::Work;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -200,4 +201,39 @@ fn a_spoilt_step_is_refuted_and_not_written() {
             }
         });
     }
+}
+
+/// The page asks for the derivation, and what it folds below is the whole of it.
+#[test]
+fn the_report_has_an_exercise_with_its_solution_folded() {
+    let (model, _) = load("model.toml", SLEIGH, &NoFiles, &[])
+        .into_result()
+        .unwrap();
+    let options = StudyOptions {
+        claims: ClaimSelection {
+            words: vec!["model.constraints-linear".to_owned()],
+        },
+        ..StudyOptions::default()
+    };
+    let mut hooks = Hooks {
+        clock: &|| 0.0,
+        interrupt: None,
+        progress: &mut |_, _| (),
+    };
+    let page = report(&study(model, options, &mut hooks).unwrap(), None, &[]);
+    let sections = page.sections.iter();
+    let exercises: Vec<_> = sections.filter(|own| own.exercise.is_some()).collect();
+    let [own] = exercises.as_slice() else {
+        panic!("{} exercises", exercises.len())
+    };
+    assert!(own.collapsed);
+    let steps = derived(&system(SLEIGH), "reduced").steps.len();
+    let headings = own.equations.iter().filter(|line| line.heading.is_some());
+    assert_eq!(headings.count(), steps);
+    // Of the sleigh only the slopes along the quasi-velocities are all zero.
+    let said = own
+        .equations
+        .iter()
+        .filter_map(|line| line.omitted.as_deref());
+    assert_eq!(said.collect::<Vec<_>>(), ["All of them vanish."]);
 }
