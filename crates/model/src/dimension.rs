@@ -56,17 +56,15 @@ pub(crate) fn check(resolver: &mut Resolver) -> bool {
     {
         return false;
     }
-    let mut warned: Vec<Place> = Vec::new();
+    let mut missing: Vec<(String, Place, &str)> = Vec::new();
     for (name, stated, place, what) in all {
-        let excused = resolver.unreadable_units.contains(&place);
-        if stated || excused || warned.contains(&place) {
-            continue;
+        let excused = resolver.without_blame.contains(&place);
+        let is_known = missing.iter().any(|known| known.1 == place);
+        if !(stated || excused || is_known) {
+            missing.push((name, place, what));
         }
-        warned.push(place);
-        let message = format!("the {what} `{name}` has no unit, while others have");
-        let hint = "what contains it is not checked; write unit = \"1\" for a pure number";
-        resolver.push(Diagnostic::warning("missing-unit", place, message).hint(hint));
     }
+    warn_of_missing(resolver, &missing);
     let formulas = std::mem::take(&mut resolver.formulas);
     let mut checker = Checker {
         defines: vec![None; resolver.defines.len()],
@@ -85,6 +83,30 @@ pub(crate) fn check(resolver: &mut Resolver) -> bool {
         resolver.push(diagnostic);
     }
     true
+}
+
+/// Names that are listed where many quantities have no unit.
+const LISTED: usize = 12;
+
+/// One warning of all quantities without a unit, at the first of them.
+fn warn_of_missing(resolver: &mut Resolver, missing: &[(String, Place, &str)]) {
+    let Some((name, place, what)) = missing.first() else {
+        return;
+    };
+    let message = match missing.len() {
+        1 => format!("the {what} `{name}` has no unit, while others have"),
+        n => {
+            let names = missing.iter().take(LISTED);
+            let names: Vec<String> = names.map(|own| format!("`{}`", own.0)).collect();
+            let rest = if n > LISTED { ", …" } else { "" };
+            format!(
+                "{n} quantities have no unit, while others have: {}{rest}",
+                names.join(", ")
+            )
+        }
+    };
+    let hint = "what contains them is not checked; write unit = \"1\" for a pure number";
+    resolver.push(Diagnostic::warning("missing-unit", *place, message).hint(hint));
 }
 
 struct Checker<'r> {

@@ -126,6 +126,17 @@ impl Unit {
     }
 }
 
+/// A number with a unit behind it, as in `85 kg`: the two texts and what the unit is.
+pub(crate) fn quantity(text: &str) -> Option<(&str, &str, Unit)> {
+    let trimmed = text.trim();
+    let at = trimmed.find(char::is_whitespace)?;
+    let (number, unit) = (&trimmed[..at], trimmed[at..].trim_start());
+    let is_number = number.parse::<f64>().is_ok() && number.contains(|c: char| c.is_ascii_digit());
+    let unit_read = parse_unit(unit).ok().filter(|_| is_number)?;
+    let has_name = unit.contains(|c: char| c.is_alphabetic() && c != 'e');
+    has_name.then_some((number, unit, unit_read))
+}
+
 struct Named {
     symbol: &'static str,
     /// Exponents of m, kg, s, A, K, mol, cd.

@@ -197,7 +197,7 @@ const FIRST_PAGE: &str = "# Chetaev
 
 A model file goes in. Equations of motion in every classical form come out, proved equal, with verdicts on claims, trajectories and a report.
 
-- [From a wheel to its equations](book/from-a-wheel-to-its-equations.md) is the place to begin.
+- [The first hour](book/first-hour.md) is the place to begin, or, with bodies and wheels, [From a wheel to its equations](book/from-a-wheel-to-its-equations.md).
 - [The model file](model-file.md) has every part of a model with an example.
 - [Formulations](book/formulations.md) has every form of the equations with its rule.
 - [The theory](theory/README.md) has what the program cites.

@@ -148,12 +148,24 @@ fn row(system: &System, c: &Characteristics, own: &ReducedEquations, s: usize) -
     let at_rest: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
     let right = simplify(g, g.neg(g.substitute(whole, &at_rest)), &options);
     let symbols: Vec<Symbol> = c.parameters.iter().map(|p| p.rate_symbol).collect();
-    let slopes = g.gradient(whole, &symbols).into_iter().zip(&c.parameters);
-    let slopes = slopes.filter(|(m, _)| !g.is_zero(*m));
-    let short: Vec<Expr> = slopes
-        .map(|(m, p)| g.mul(&[simplify(g, m, &options), p.rate]))
-        .collect();
-    let (stated, short) = ((left, own.force[s]), (g.add(&short), right));
+    let slopes = g.gradient(whole, &symbols);
+    let product = |m: Expr, rate: Expr| g.mul(&[simplify(g, m, &options), rate]);
+    let sum = |of: &dyn Fn(Expr) -> Expr| {
+        let slopes = slopes.iter().zip(&c.parameters);
+        let slopes = slopes.filter(|(&m, _)| !g.is_zero(m));
+        g.add(
+            &slopes
+                .map(|(&m, p)| product(of(m), p.rate))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let short = match (sum(&|m| m), right) {
+        (left, right) if g.text(left).starts_with('-') => {
+            (sum(&|m| g.neg(m)), simplify(g, g.neg(right), &options))
+        }
+        sides => sides,
+    };
+    let stated = (left, own.force[s]);
     let count = |(left, right): (Expr, Expr)| {
         let printed = Document::equations(g, &[(left, right)], &Printing::default());
         printed.operations().total()

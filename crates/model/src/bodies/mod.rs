@@ -45,9 +45,10 @@ use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::resolve::Override;
 use crate::source::Place;
+use crate::units::quantity;
 use lowering::{Lowering, Up};
 use objects::Kept;
-use reading::{quantity, Slot};
+use reading::Slot;
 use sensors::Whole;
 
 /// The sections that are lowered.

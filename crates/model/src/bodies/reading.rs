@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
 use crate::text::Text;
-use crate::units::{parse_unit, Unit};
+use crate::units::{parse_unit, quantity, Unit};
 
 /// An object while it is being read: its name, its table, and what it is, for messages.
 #[derive(Clone, Copy)]
@@ -76,17 +76,6 @@ impl Scope for Symbols<'_> {
     fn names(&self) -> Vec<String> {
         Vec::new()
     }
-}
-
-/// A number with a unit behind it, as in `85 kg`: the two texts and what the unit is.
-pub(crate) fn quantity(text: &str) -> Option<(&str, &str, Unit)> {
-    let trimmed = text.trim();
-    let at = trimmed.find(char::is_whitespace)?;
-    let (number, unit) = (&trimmed[..at], trimmed[at..].trim_start());
-    let is_number = number.parse::<f64>().is_ok() && number.contains(|c: char| c.is_ascii_digit());
-    let unit_read = parse_unit(unit).ok().filter(|_| is_number)?;
-    let has_name = unit.contains(|c: char| c.is_alphabetic() && c != 'e');
-    has_name.then_some((number, unit, unit_read))
 }
 
 /// Whether a number is written as zero.

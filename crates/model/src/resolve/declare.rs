@@ -407,7 +407,7 @@ impl Resolver {
             } else {
                 own.dimension.to_string()
             };
-            self.unreadable_units.push(place);
+            self.without_blame.push(place);
             self.push(
                 Diagnostic::error("incoherent-unit", place, message)
                     .hint(format!("state it in {hint}")),
@@ -431,7 +431,7 @@ impl Resolver {
     /// A quantity whose unit is wrong, as a diagnostic since `before` says, is not blamed for having none.
     pub(crate) fn excuse_unit(&mut self, key: &Text, before: usize) {
         if self.diagnostics.len() > before {
-            self.unreadable_units.push(key.place);
+            self.without_blame.push(key.place);
         }
     }
 

@@ -87,8 +87,8 @@ pub(crate) struct Resolver {
     pub(crate) contents: RefCell<BTreeMap<(usize, u32), Contents>>,
     /// Every expression with what its dimension should be.
     pub(crate) formulas: Vec<Formula>,
-    /// Keys of quantities whose unit is stated, but wrong.
-    pub(crate) unreadable_units: Vec<Place>,
+    /// Keys of quantities that have no unit and are not blamed for it: it is stated, but wrong, or their values are angles in degrees.
+    pub(crate) without_blame: Vec<Place>,
     /// Names that occur in expressions other than assumptions.
     pub(crate) used: RefCell<BTreeSet<String>>,
     /// Unknowns of the equations that are being read.
@@ -166,7 +166,7 @@ pub(crate) fn resolve(
         characteristic_parameters: Vec::new(),
         contents: RefCell::default(),
         formulas: Vec::new(),
-        unreadable_units: Vec::new(),
+        without_blame: Vec::new(),
         used: RefCell::default(),
         unknowns: Vec::new(),
         symbols: BTreeMap::new(),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::{Expr, Rational};
 
-use super::advice::names_a_degree;
+use super::advice::{is_degree, names_a_degree};
 use super::define::{dependency_order, joined};
 use super::formula::Expected;
 use super::scope::{Context, NamedKind};
@@ -15,7 +15,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{Assumption, Parameter};
 use crate::raw::{Kind, Raw, Table};
 use crate::text::Text;
-use crate::units::Unit;
+use crate::units::{quantity, Unit};
 use chetaev_symbolic::syntax::Relation;
 
 impl Resolver {
@@ -107,41 +107,74 @@ impl Resolver {
                 Some(text) => (Some(text), Vec::new()),
                 None => (stated.value, stated.bindings.clone()),
             };
+            let (text, unit) = self.measured(text, unit);
+            if self.parameters[at].unit.is_none() {
+                self.parameters[at].unit.clone_from(&unit);
+            }
             if let Some(text) = text {
                 let context = Context::constant("the value of a parameter");
                 let expected = Expected::Quantity(name.clone(), 0);
-                self.check_degrees(&text, unit.as_ref());
+                self.check_degrees(at, &text, unit.as_ref());
                 let value = self.expression(&text, &bindings, context, expected);
                 self.parameters[at].definition =
                     value.map(|value| self.in_base_units(value, unit.as_ref()));
             }
             if let Some(range) = stated.range {
-                self.parameters[at].range =
-                    self.parameter_range(&range, &stated.bindings, &name, unit.as_ref());
+                self.parameters[at].range = self.parameter_range(&range, &stated.bindings, at);
             }
         }
         self.close_parameters();
         self.check_ranges();
     }
 
-    /// A number of degrees is in radians already, and takes no other unit.
-    fn check_degrees(&mut self, text: &Text, unit: Option<&Unit>) {
-        let Some(unit) = unit.filter(|unit| unit.text != "rad") else {
-            return;
+    /// The number of `8 kg` with its unit, unless the model has something of this name: it is a product then, as everywhere. What has a unit of its own
+    /// keeps to its dimension.
+    fn measured(
+        &mut self,
+        text: Option<Text>,
+        stated: Option<Unit>,
+    ) -> (Option<Text>, Option<Unit>) {
+        let Some((own, number, unit)) = text.as_ref().and_then(|own| {
+            let (number, unit, read) = quantity(&own.content)?;
+            let mut words = unit.split(|sign: char| !(sign.is_alphanumeric() || sign == '_'));
+            let is_a_unit = words.all(|word| !self.names.contains_key(word) && !is_degree(word));
+            is_a_unit.then_some((own, number, read))
+        }) else {
+            return (text, stated);
         };
-        let is_declared = |name: &str| self.names.contains_key(name);
-        if names_a_degree(&text.content)
-            && !["deg", "degree", "degrees"].into_iter().any(is_declared)
-        {
+        if let Some(stated) = stated.filter(|stated| stated.dimension != unit.dimension) {
             let message = format!(
-                "the value is in degrees and its unit is stated as `{}`",
-                unit.text
+                "the value is in `{}` and its unit is stated as `{}`",
+                unit.text, stated.text
             );
-            self.push(
-                Diagnostic::error("unit-twice", text.place, message).hint(
-                    "write value = 30, unit = \"deg\", or the text \"30 deg\" without a unit",
-                ),
-            );
+            let place = own.place;
+            self.push(Diagnostic::error("wrong-dimension", place, message));
+            return (None, Some(stated));
+        }
+        let at = own.content.find(number).unwrap_or(0);
+        (Some(own.part(at, number)), Some(unit))
+    }
+
+    /// A number of degrees is in radians already, takes no other unit, and needs none.
+    fn check_degrees(&mut self, at: usize, text: &Text, unit: Option<&Unit>) {
+        let is_declared = |name: &str| self.names.contains_key(name);
+        if !names_a_degree(&text.content)
+            || ["deg", "degree", "degrees"].into_iter().any(is_declared)
+        {
+            return;
+        }
+        match unit {
+            None => self.without_blame.push(self.parameters[at].place),
+            Some(unit) if unit.text == "rad" => {}
+            Some(unit) => {
+                let message = format!(
+                    "the value is in degrees and its unit is stated as `{}`",
+                    unit.text
+                );
+                let hint =
+                    "write value = 30, unit = \"deg\", or the text \"30 deg\" without a unit";
+                self.push(Diagnostic::error("unit-twice", text.place, message).hint(hint));
+            }
         }
     }
 
@@ -149,9 +182,12 @@ impl Resolver {
         &mut self,
         raw: &Raw,
         bindings: &Bindings,
-        name: &str,
-        unit: Option<&Unit>,
+        at: usize,
     ) -> Option<(Expr, Expr)> {
+        let (name, unit) = (
+            self.parameters[at].name.clone(),
+            self.parameters[at].unit.clone(),
+        );
         let Kind::Array(items) = &raw.kind else {
             self.wrong_kind(raw, "`range`", "an array of two ends");
             return None;
@@ -167,15 +203,15 @@ impl Resolver {
         let mut ends = Vec::new();
         for end in [low, high] {
             let text = self.expression_text(end, "the end of a range")?;
-            self.check_degrees(&text, unit);
-            let expected = Expected::Quantity(name.to_owned(), 0);
+            self.check_degrees(at, &text, unit.as_ref());
+            let expected = Expected::Quantity(name.clone(), 0);
             let value = self.expression(
                 &text,
                 bindings,
                 Context::number("the range of a parameter"),
                 expected,
             )?;
-            ends.push(self.in_base_units(value, unit));
+            ends.push(self.in_base_units(value, unit.as_ref()));
         }
         let values: Vec<Option<f64>> = ends.iter().map(|end| self.constant_f64(*end)).collect();
         if let [Some(low), Some(high)] = values.as_slice() {

@@ -378,16 +378,45 @@ fn degrees_are_numbers() {
     assert_eq!(start("2*15 degrees + 0"), start("pi/6"));
     let twice = "coordinates = [\"x\"]\n[parameters]\na = { value = \"30 deg\", unit = \"deg\" }\n[lagrangian]\nL = \"x'^2/2 - cos(x - a)\"\n";
     refused(twice, &["its unit is stated as `deg`"]);
-    let weight = "coordinates = [\"x\"]\nparameters = { m = \"1 kg\", k = 1, g = 1 }\nlagrangian = \"k g m x'^2/2\"\n";
+    // A name of the model is what it says.
+    let named = "coordinates = [\"x\"]\nparameters = { deg = 2 }\nlagrangian = \"deg x'^2/2\"\n";
+    let model = read(named).model.unwrap();
+    assert!(model.graph.text(model.lagrangian).contains("deg"));
+}
+
+#[test]
+fn numbers_have_units() {
+    let mass = |value: &str| {
+        let text = format!(
+            "coordinates = [\"x\"]\nparameters = {{ m = {value}, k = 2 }}\nlagrangian = \"m x'^2/2 - k x^2\"\n"
+        );
+        let model = read(&text)
+            .model
+            .unwrap_or_else(|| panic!("{}", read(&text).diagnostics));
+        let own = model.parameters.iter().find(|own| own.name == "m").unwrap();
+        let unit = own.unit.as_ref().map(|unit| unit.dimension.to_string());
+        (model.graph.text(own.value.unwrap()), unit)
+    };
+    let kilograms = |text: &str| (text.to_owned(), Some("kg".to_owned()));
+    assert_eq!(mass("\"8 kg\""), kilograms("8"));
+    assert_eq!(mass("\"250 g\""), kilograms("1/4"));
+    assert_eq!(
+        mass("{ value = \"250 g\", unit = \"kg\" }"),
+        kilograms("1/4")
+    );
+    // A name of the model is what it says.
+    assert_eq!(mass("\"8 k\"").0, "16");
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = { value = \"8 s\", unit = \"kg\" } }\nlagrangian = \"m x'^2/2\"\n",
+        &["in `s`", "stated as `kg`"],
+    );
+    // In a formula a number has no unit, and where to state one is said.
+    let weight = "coordinates = [\"x\"]\nparameters = { k = 1 }\nlagrangian = \"k x'^2/2\"\n[initial]\nx = \"1 kg\"\n";
     refused(
         weight,
         &["state the unit beside the number", "unit = \"kg\""],
     );
     assert_eq!(carried_out(weight), Vec::<String>::new());
-    // A name of the model is what it says.
-    let named = "coordinates = [\"x\"]\nparameters = { deg = 2 }\nlagrangian = \"deg x'^2/2\"\n";
-    let model = read(named).model.unwrap();
-    assert!(model.graph.text(model.lagrangian).contains("deg"));
 }
 
 #[test]

@@ -204,3 +204,15 @@ fn a_misspelt_unit_is_one_problem() {
         loaded.diagnostics
     );
 }
+
+#[test]
+fn what_has_no_unit_is_said_in_one_warning() {
+    let text = "coordinates = [\"x\"]\nparameters = { m = \"250 g\", a = \"10 deg\", k = 3, c = 1 }\nlagrangian = \"m x'^2/2 - k x^2 cos(a) - c x\"\n";
+    let loaded = read(text);
+    assert!(loaded.model.is_some(), "{}", loaded.diagnostics);
+    let found = loaded.diagnostics.list.iter();
+    let found: Vec<(&str, &str)> = found.map(|d| (d.code, d.message.as_str())).collect();
+    // The angle is a pure number, and needs no unit.
+    let message = "3 quantities have no unit, while others have: `x`, `k`, `c`";
+    assert_eq!(found, [("missing-unit", message)]);
+}

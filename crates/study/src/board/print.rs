@@ -1,7 +1,7 @@
 //! A derivation as text, and as a document of LaTeX.
 
 use super::{options, words, Board, BoardStep};
-use crate::written::latex::{document, escaped, numbered};
+use crate::written::latex::{document, escaped};
 use crate::written::{NotWritten, Notation};
 use chetaev_mechanics::System;
 use chetaev_symbolic::print::{Document, Format};
@@ -73,7 +73,7 @@ fn typeset(system: &System, board: &Board) -> String {
             Some(sentence) => text.push_str(&format!("{}\n", escaped(&sentence))),
             None => {
                 let document = Document::equations(&system.graph, &step.pairs, &options);
-                text.push_str(&numbered(document.render(Format::Latex).trim_end()));
+                text.push_str(&document.latex_display());
             }
         }
     }
@@ -81,20 +81,51 @@ fn typeset(system: &System, board: &Board) -> String {
     text
 }
 
-/// A sentence with indices of one letter, `B^i_σ`, set as such.
+/// A sentence whose formulas are typeset: words with an index, a prime, a sign or a Greek letter.
 fn prose(words: &str) -> String {
+    let words: Vec<&str> = words.split(' ').collect();
+    let groups = words.chunk_by(|a, b| is_formula(a) == is_formula(b) && !ends_a_clause(a));
+    let groups = groups.map(|group| match is_formula(group[0]) {
+        false => escaped(&group.join(" ")),
+        true => {
+            let all = group.join(" ");
+            let own = all.trim_end_matches(PUNCTUATION);
+            format!("${}${}", mathematics(own), &all[own.len()..])
+        }
+    });
+    groups.collect::<Vec<_>>().join(" ")
+}
+
+const PUNCTUATION: [char; 4] = ['.', ',', ';', ':'];
+
+fn ends_a_clause(word: &str) -> bool {
+    word.ends_with(PUNCTUATION)
+}
+
+fn is_formula(word: &str) -> bool {
+    let own = word.trim_end_matches(PUNCTUATION);
+    let is_greek = |sign: char| ('α'..='ω').contains(&sign) || ('Α'..='Ω').contains(&sign);
+    let has_sign = own.contains(['^', '_', '=', '∂', '−', '*']) || own.ends_with('\'');
+    let is_letter = own.chars().count() == 1 && own != "a" && own != "I";
+    has_sign || own.contains(is_greek) || is_letter
+}
+
+/// A formula written on one line, with indices of one letter.
+fn mathematics(words: &str) -> String {
+    let letter = |sign: char| match sign {
+        '\'' | '(' | ')' => sign.to_string(),
+        '*' => "^*".to_owned(),
+        ' ' => " ".to_owned(),
+        sign => format!("{{{}}}", escaped(&sign.to_string()).replace('$', "")),
+    };
     let mut out = String::new();
-    let mut rest = words;
-    while let Some(at) = rest.find(['^', '_']) {
-        let (sign, index) = (&rest[at..=at], rest[at + 1..].chars().next());
-        let Some(index) = index.filter(|c| c.is_alphabetic()) else {
-            break;
-        };
-        let letter = escaped(&index.to_string()).replace('$', "");
-        out.push_str(&format!("{}${sign}{{{letter}}}$", escaped(&rest[..at])));
-        rest = &rest[at + 1 + index.len_utf8()..];
+    for sign in words.chars() {
+        match sign {
+            '^' | '_' => out.push(sign),
+            sign => out.push_str(&letter(sign)),
+        }
     }
-    out + &escaped(rest)
+    out
 }
 
 /// The sentence in the place of formulas.
@@ -108,9 +139,9 @@ mod tests {
     use super::prose;
 
     #[test]
-    fn indices_in_sentences_are_typeset() {
-        let own = prose("Σ B^i_σ of P'");
-        assert_eq!(own, "$\\Sigma$ B$^{i}$$_{\\sigma}$ of P'");
-        assert_eq!(prose("no index: 2^3"), "no index: 2\\^{}3");
+    fn formulas_in_sentences_are_typeset() {
+        let own = prose("It is Σ B^i_σ of P'.");
+        assert_eq!(own, "It is ${\\Sigma} {B}^{i}_{\\sigma}$ of ${P}'$.");
+        assert_eq!(prose("no formula, Lagrange's"), "no formula, Lagrange's");
     }
 }

@@ -10,6 +10,8 @@ use chetaev_symbolic::Expr;
 /// What stands before the first formulation.
 pub(crate) const BEGIN: &str = r"\documentclass{article}
 \usepackage[T1]{fontenc}
+\IfFileExists{lmodern.sty}{\usepackage{lmodern}}{}
+\usepackage[a4paper,margin=25mm]{geometry}
 \usepackage{amsmath,amssymb,longtable}
 \allowdisplaybreaks
 \begin{document}
@@ -33,21 +35,10 @@ pub(super) fn section(system: &System, derivation: &Derivation) -> String {
             text.push_str(&format!("General form:\n\\[ {} \\]\n", schema.latex));
         }
         let document = Document::equations(&system.graph, &section.pairs, &options);
-        text.push_str(&numbered(document.render(Format::Latex).trim_end()));
+        text.push_str(&document.latex_display());
     }
     text.push('\n');
     text
-}
-
-/// Aligned equations with numbers, where the printer aligns them without.
-pub(crate) fn numbered(printed: &str) -> String {
-    let inside = printed
-        .strip_prefix("\\begin{aligned}\n")
-        .and_then(|rest| rest.strip_suffix("\n\\end{aligned}"));
-    match inside {
-        Some(lines) => format!("\\begin{{align}}\n{lines}\n\\end{{align}}\n"),
-        None => format!("\\begin{{equation}}\n{printed}\n\\end{{equation}}\n"),
-    }
 }
 
 /// Definitions of quasi-velocities, and of parameters by others; then a table of all symbols.
@@ -62,7 +53,7 @@ fn symbols(system: &System) -> String {
     let mut text = String::new();
     if !defined.is_empty() {
         let document = Document::equations(g, &defined, &options);
-        let equations = numbered(document.render(Format::Latex).trim_end());
+        let equations = document.latex_display();
         text.push_str(&format!("\\section*{{Definitions}}\n{equations}\n"));
     }
     text.push_str("\\section*{Symbols}\n\\begin{longtable}{llp{0.5\\textwidth}l}\n");
@@ -97,8 +88,29 @@ fn row(system: &System, options: &Options, kind: &str, name: &str) -> String {
         letter.trim(),
         escaped(name),
         escaped(&meaning),
-        escaped(&note.unit)
+        unit(&note.unit)
     )
+}
+
+/// A unit as it is typeset, upright, with its powers.
+fn unit(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut typeset = String::new();
+    let mut signs = text.chars().peekable();
+    while let Some(sign) = signs.next() {
+        match sign {
+            ' ' => typeset.push_str("\\,"),
+            '^' => {
+                let is_power = |sign: &char| sign.is_ascii_digit() || *sign == '-';
+                let power: String = std::iter::from_fn(|| signs.next_if(is_power)).collect();
+                typeset.push_str(&format!("^{{{power}}}"));
+            }
+            sign => typeset.push_str(&escaped(&sign.to_string()).replace('$', "")),
+        }
+    }
+    format!("$\\mathrm{{{typeset}}}$")
 }
 
 /// A heading that begins with a capital.
@@ -174,19 +186,11 @@ fn letter(sign: char) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{escaped, numbered};
+    use super::{escaped, unit};
 
     #[test]
-    fn equations_are_numbered_and_words_escaped() {
-        let aligned = "\\begin{aligned}\na &= b \\\\\nc &= d\n\\end{aligned}";
-        assert_eq!(
-            numbered(aligned),
-            "\\begin{align}\na &= b \\\\\nc &= d\n\\end{align}\n"
-        );
-        assert_eq!(
-            numbered("a = b"),
-            "\\begin{equation}\na = b\n\\end{equation}\n"
-        );
+    fn words_are_escaped() {
         assert_eq!(escaped("x_1 & 50% – λ"), "x\\_1 \\& 50\\% -- $\\lambda$");
+        assert_eq!(unit("kg m^2/s^2"), "$\\mathrm{kg\\,m^{2}/s^{2}}$");
     }
 }

@@ -52,8 +52,8 @@ impl Document {
     }
 }
 
-struct Latex<'a> {
-    document: &'a Document,
+pub(super) struct Latex<'a> {
+    pub(super) document: &'a Document,
 }
 
 impl Latex<'_> {
@@ -85,7 +85,7 @@ impl Latex<'_> {
         }
     }
 
-    fn matrix_equation(&self, system: &LinearSystem) -> String {
+    pub(super) fn matrix_equation(&self, system: &LinearSystem) -> String {
         let n = system.unknowns.len();
         let unknowns: Vec<Formula> = system.unknowns.iter().map(|u| Formula::symbol(u)).collect();
         let mut out = String::new();
@@ -97,7 +97,7 @@ impl Latex<'_> {
         out
     }
 
-    fn formula(&self, e: &Formula) -> String {
+    pub(super) fn formula(&self, e: &Formula) -> String {
         let mut out = String::new();
         self.write(e, &mut out);
         out
@@ -140,7 +140,7 @@ impl Latex<'_> {
         }
     }
 
-    fn group(&self, e: &Formula, least: Strength, out: &mut String) {
+    pub(super) fn group(&self, e: &Formula, least: Strength, out: &mut String) {
         if strength(e) >= least {
             self.write(e, out);
         } else {
@@ -156,7 +156,7 @@ impl Latex<'_> {
     }
 
     /// A name as it is displayed.
-    fn name(&self, name: &str) -> TypesetName {
+    pub(super) fn name(&self, name: &str) -> TypesetName {
         typeset(self.document.display.get(name).map_or(name, String::as_str))
     }
 
@@ -196,24 +196,30 @@ impl Latex<'_> {
     }
 
     fn product(&self, factors: &[Formula], out: &mut String) {
-        for (place, factor) in factors.iter().enumerate() {
-            if place > 0 {
-                out.push_str(if factor.begins_with_digit() {
-                    " \\cdot "
-                } else {
-                    " "
-                });
+        for place in 0..factors.len() {
+            self.factor(factors, place, out);
+        }
+    }
+
+    /// One factor of a product, with the space or the dot before it.
+    pub(super) fn factor(&self, factors: &[Formula], place: usize, out: &mut String) {
+        let factor = &factors[place];
+        if place > 0 {
+            out.push_str(if factor.begins_with_digit() {
+                " \\cdot "
+            } else {
+                " "
+            });
+        }
+        let last = factors
+            .get(place + 1)
+            .is_none_or(|next| function_of(next).is_some());
+        match function_of(factor) {
+            Some((function, power, arguments)) => {
+                self.apply(function, power, arguments, last, out);
             }
-            let last = factors
-                .get(place + 1)
-                .is_none_or(|next| function_of(next).is_some());
-            match function_of(factor) {
-                Some((function, power, arguments)) => {
-                    self.apply(function, power, arguments, last, out);
-                }
-                None if factor.is_ratio() => self.write(factor, out),
-                None => self.group(factor, Strength::Power, out),
-            }
+            None if factor.is_ratio() => self.write(factor, out),
+            None => self.group(factor, Strength::Power, out),
         }
     }
 
@@ -241,7 +247,7 @@ impl Latex<'_> {
     }
 
     /// A fraction in an exponent is written on the line where it can be.
-    fn exponent(&self, e: &Formula, out: &mut String) {
+    pub(super) fn exponent(&self, e: &Formula, out: &mut String) {
         match e {
             Formula::Negative(inner) if inner.is_flat_fraction() => {
                 out.push('-');
@@ -373,7 +379,7 @@ pub(crate) fn function_of(e: &Formula) -> Option<(Function, Option<&Formula>, &[
     }
 }
 
-fn function_name(function: Function) -> &'static str {
+pub(super) fn function_name(function: Function) -> &'static str {
     use Function::*;
     match function {
         Sin => "\\sin",

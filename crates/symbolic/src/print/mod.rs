@@ -8,6 +8,7 @@
 
 mod array;
 mod code;
+mod display;
 mod document;
 mod formula;
 mod json;

@@ -1,5 +1,6 @@
 //! What the tests share: reading text back.
 
+mod display;
 mod laws;
 mod notation;
 mod sharing;
