@@ -45,7 +45,14 @@ class Model:
     def principles(self, asked: dict[str, Any], compare: bool, tell: _Tell | None = None) -> Outcome: ...
     def sweep(self, asked: dict[str, Any], varied: dict[str, Any], tell: _Tell | None = None) -> Sweep: ...
     def follow(
-        self, about: str | None, over: str | None, orbit: bool, period: str | None, points: int, tell: _Tell | None = None
+        self,
+        about: str | None,
+        over: str | None,
+        orbit: bool,
+        period: str | None,
+        points: int,
+        step: float,
+        tell: _Tell | None = None,
     ) -> tuple[str, str]: ...
     def stability_map(
         self, over: str, about: str | None = None, at: str | None = None, tell: _Tell | None = None

@@ -653,6 +653,7 @@ class System:
         speeds: str | Iterable[str] | None = None,
         outputs: str | Iterable[str] | None = None,
         symbolic: bool = False,
+        numbers: bool = False,
         save: str | os.PathLike[str] | None = None,
         progress: bool = False,
     ) -> Linearization:
@@ -670,10 +671,12 @@ class System:
             Outputs: functions of coordinates, velocities and controls; all variables when left out.
         symbolic : bool
             Leaves all parameters as symbols.
+        numbers : bool
+            Puts in the values of all parameters from the beginning: exact numbers alone.
         save : path, optional
             Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
         """
-        wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic)
+        wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers)
         with _Progress(progress) as tell:
             found = self._native.stability(wanted, tell)
         result = Linearization(self, found, found.equations())
@@ -723,6 +726,7 @@ class System:
         orbit: bool = False,
         period: str | None = None,
         points: int = 500,
+        step: float = 0.05,
         progress: bool = False,
     ) -> Followed:
         """Follows steady motions or periodic orbits over a range of a parameter, in numbers.
@@ -739,9 +743,11 @@ class System:
             The period of orbits, an expression of parameters; a guess of it where the equations do not contain the time.
         points : int
             At most so many on each side of the start.
+        step : float
+            The longest step along the curve, in parts of the range.
         """
         with _Progress(progress) as tell:
-            text, data = self._native.follow(about, over, orbit, period, points, tell)
+            text, data = self._native.follow(about, over, orbit, period, points, step, tell)
         return Followed(json.loads(data), text)
 
     def along(self, *, progress: bool = False) -> Result:
@@ -882,7 +888,7 @@ def _asked(**options: Any) -> dict[str, Any]:
 
 def _wanted(**options: Any) -> dict[str, Any]:
     """What is asked of linear equations, lists joined by commas."""
-    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "over": None, "at": None, **options}
+    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "numbers": False, "over": None, "at": None, **options}
     for name in ("speeds", "outputs"):
         if asked[name] is not None and not isinstance(asked[name], str):
             asked[name] = ",".join(asked[name])

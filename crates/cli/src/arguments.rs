@@ -161,6 +161,9 @@ pub(crate) struct Linearize {
     /// Leave all parameters as symbols
     #[arg(long)]
     pub(crate) symbolic: bool,
+    /// Put in the values of all parameters, that of the family of motions too: exact numbers alone
+    #[arg(long, conflicts_with = "symbolic")]
+    pub(crate) numbers: bool,
     /// Write to a file in the format of its end: .npz (NumPy), .mat (MATLAB), .py (python-control), .tex, .json or .txt
     #[arg(long, value_name = "FILE")]
     pub(crate) save: Option<PathBuf>,
@@ -212,6 +215,9 @@ pub(crate) struct Follow {
     /// At most so many points on each side of the start
     #[arg(long, value_name = "N", default_value_t = 500)]
     pub(crate) points: usize,
+    /// The longest step along the curve, in parts of the range: --step 0.001 makes a thousand points of it
+    #[arg(long, value_name = "PART", default_value_t = 0.05)]
+    pub(crate) step: f64,
     /// Print JSON: points with their eigenvalues or multipliers, and special points
     #[arg(long)]
     pub(crate) json: bool,

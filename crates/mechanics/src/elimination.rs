@@ -82,12 +82,23 @@ pub(crate) enum Writing {
     Stated,
 }
 
+/// By which functions of parameters a constraint may be divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Dividing {
+    /// By those that the assumptions keep from zero.
+    Nonzero,
+    /// Also by those that are not zero at the stated values.
+    NonzeroAsStated,
+}
+
 /// The admissible velocities in speeds, of which each constraint takes one.
 pub(crate) struct Elimination<'a> {
     writing: Writing,
     system: &'a System,
     g: &'a Graph,
     assumptions: Assumptions,
+    /// Where what only contains parameters is not zero, it is divided by; `None` where only what is never zero is.
+    stated: Option<Start>,
     /// v in the speeds.
     pub(crate) velocities: Vec<Expr>,
     /// The speeds that are left.
@@ -272,9 +283,13 @@ impl<'a> Elimination<'a> {
         system: &'a System,
         terms: &MotionTerms,
         rows: &[usize],
-        writing: Writing,
+        (writing, dividing): (Writing, Dividing),
     ) -> Option<Elimination<'a>> {
         let mut own = Elimination::new(system, writing);
+        own.stated = match dividing {
+            Dividing::Nonzero => None,
+            Dividing::NonzeroAsStated => Some(Start::of(system)),
+        };
         let mut left: Vec<usize> = rows.to_vec();
         while !left.is_empty() {
             // A row that offers nothing may do so when others are solved.
@@ -300,6 +315,7 @@ impl<'a> Elimination<'a> {
             system,
             g: &system.graph,
             assumptions: assumptions(system),
+            stated: None,
             velocities: system.coordinates.iter().map(|c| c.v).collect(),
             speeds: system.coordinates.iter().map(speed).collect(),
         }
@@ -390,8 +406,9 @@ impl<'a> Elimination<'a> {
                 .iter()
                 .any(|p| g.as_symbol(p.expr) == Some(*s))
         };
+        let is_stated = || self.stated.as_ref().is_some_and(|own| own.is_nonzero(g, e));
         g.symbols_in(&[e]).iter().all(is_parameter)
-            && known_sign(g, e, &self.assumptions).is_nonzero()
+            && (known_sign(g, e, &self.assumptions).is_nonzero() || is_stated())
     }
 
     pub(crate) fn eliminate(&mut self, row: &Row, place: usize) {
@@ -423,12 +440,38 @@ impl<'a> Elimination<'a> {
             .flat_map(|(k, &i)| own[k + 1..].iter().map(move |&j| [i, j]));
         for [i, j] in pairs {
             let square = g.add(&[i, j].map(|s| g.powi(row.coefficients[s], 2)));
+            if self.changes_by_sample(square) {
+                continue;
+            }
             let square = simplify_all(g, &[square], &Options::default())[0];
             if self.is_constant(square) {
                 return Some(([i, j], square));
             }
         }
         None
+    }
+
+    /// Whether values at two places differ by more than rounding. The sums of a long chain are not simplified to see that they change.
+    fn changes_by_sample(&self, e: Expr) -> bool {
+        let g = self.g;
+        let symbols = g.symbols_in(&[e]);
+        let mut generator = Generator::new(0x524f_5441);
+        let parameters = self.system.parameters.iter();
+        let parameters: Vec<Symbol> = parameters.filter_map(|p| g.as_symbol(p.expr)).collect();
+        let mut drawn = || -> BTreeMap<Symbol, f64> {
+            let own = symbols.iter();
+            own.map(|&s| (s, generator.between(0.5, 1.5))).collect()
+        };
+        let (first, mut second) = (drawn(), drawn());
+        for s in &parameters {
+            second.extend(first.get(s).map(|&value| (*s, value)));
+        }
+        let value = |at: &BTreeMap<Symbol, f64>| {
+            let found = g.evaluate_f64(&[e], &|s| at.get(&s).copied()).ok()?;
+            found.first().copied().filter(|x| x.is_finite())
+        };
+        let values = value(&first).zip(value(&second));
+        values.is_some_and(|(a, b)| (a - b).abs() > 1e-6 * (a.abs() + b.abs()))
     }
 
     /// `P_i = −q u − p h`, `P_j = p u − q h` with `h = (what is left of f)/(p² + q²)`.

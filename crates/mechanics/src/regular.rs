@@ -8,7 +8,7 @@
 
 use crate::characteristics::Characteristics;
 use crate::constraint::ConstraintKind;
-use crate::elimination::{Elimination, Writing};
+use crate::elimination::{Dividing, Elimination, Writing};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Function, Node, Symbol};
@@ -19,6 +19,25 @@ const LARGEST: usize = 40;
 /// Characteristics by such quasi-velocities for the constraints of `rows`, each with the definition of P in the velocities;
 /// `None` where none are found in this way.
 pub fn regular(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Characteristics> {
+    regular_dividing(system, terms, rows, Dividing::Nonzero)
+}
+
+/// The same for values of parameters near those that are stated: what only contains parameters is divided by where it is not zero there, as
+/// the distance between two hinges.
+pub fn regular_as_stated(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+) -> Option<Characteristics> {
+    regular_dividing(system, terms, rows, Dividing::NonzeroAsStated)
+}
+
+fn regular_dividing(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    dividing: Dividing,
+) -> Option<Characteristics> {
     let is_affine = rows.iter().all(|&row| terms.affine[row]);
     if terms.order != 1 || !is_affine || system.n() > LARGEST || !system.masses.is_empty() {
         return None;
@@ -32,7 +51,7 @@ pub fn regular(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<C
     let size = |e: &Elimination<'_>| system.graph.reachable(&e.velocities).len();
     let found = [Writing::Coefficients, Writing::Stated]
         .into_iter()
-        .filter_map(|writing| Elimination::of(system, terms, rows, writing));
+        .filter_map(|writing| Elimination::of(system, terms, rows, (writing, dividing)));
     let Elimination {
         velocities, speeds, ..
     } = found.min_by_key(size)?;

@@ -2,6 +2,7 @@
 
 use crate::characteristics::CharacteristicsError;
 use crate::components;
+use crate::constraint::ConstraintKind;
 use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
@@ -78,8 +79,31 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     } else {
         AT_SOLVED_STATES
     };
-    Ok(eliminate_beyond(least, values_at(&point), cost, n))
+    let values = values_at(&point);
+    let chosen = eliminate_beyond(least, values.clone(), cost.clone(), n);
+    let is_finite = |row: usize| {
+        system.constraints[terms.constraint_index[row]].kind == ConstraintKind::Holonomic
+    };
+    let finite = |own: &Selection| own.rows.iter().filter(|&&row| is_finite(row)).count();
+    if finite(&chosen) == (0..r).filter(|&row| is_finite(row)).count() {
+        return Ok(chosen);
+    }
+    // Of a finite constraint and its derivative, both stated, the finite one says more.
+    let behind = |(row, line): (usize, Vec<usize>)| -> Vec<usize> {
+        let more = if is_finite(row) { 0 } else { BEHIND_FINITE };
+        line.into_iter().map(|own| own + more).collect()
+    };
+    let cost: Vec<Vec<usize>> = cost.into_iter().enumerate().map(behind).collect();
+    let other = eliminate_beyond(least, values, cost, n);
+    Ok(if finite(&other) > finite(&chosen) {
+        other
+    } else {
+        chosen
+    })
 }
+
+/// More than any entry of a finite constraint costs.
+const BEHIND_FINITE: usize = 100_000_000;
 
 fn constraint_names(system: &System, terms: &MotionTerms) -> String {
     quoted(

@@ -138,8 +138,25 @@ const STEPS_OF_START: usize = 60;
 const DAMPING: f64 = 0.1;
 /// Lengths of steps along the curve, in units of the range and of the size of the unknowns.
 const FIRST: f64 = 0.02;
-const LONGEST: f64 = 0.05;
 const SHORTEST: f64 = 1e-7;
+
+/// How far, and how finely, a curve is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// At most so many points on each side of the start.
+    pub points: usize,
+    /// The longest step along the curve, in units of the range and of the size of the unknowns.
+    pub step: f64,
+}
+
+impl Default for Pace {
+    fn default() -> Pace {
+        Pace {
+            points: 500,
+            step: 0.05,
+        }
+    }
+}
 
 /// A solution at a value of the parameter near a guess, with the dimension of the family of solutions to which it belongs.
 ///
@@ -213,7 +230,7 @@ fn scaled(matrix: &DMatrix<f64>, scale: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// The curve of solutions through one near a guess, over a range of the parameter, in at most so many points.
+/// The curve of solutions through one near a guess, over a range of the parameter.
 ///
 /// # Errors
 /// [`OrbitError`] where there is no solution near the guess.
@@ -221,7 +238,7 @@ pub fn follow(
     equations: &mut dyn Equations,
     (guess, p): (&[f64], f64),
     range: (f64, f64),
-    points: usize,
+    pace: Pace,
 ) -> Result<Branch, OrbitError> {
     let p = p.clamp(range.0, range.1);
     let (start, family) = solution(equations, guess, p)?;
@@ -231,7 +248,7 @@ pub fn follow(
     for (side, end) in ends.iter_mut().enumerate() {
         let mut own = Vec::new();
         let mut happened = Vec::new();
-        *end = walk.walk(&start, side == 1, points, (&mut own, &mut happened))?;
+        *end = walk.walk(&start, side == 1, pace, (&mut own, &mut happened))?;
         if side == 0 {
             own.reverse();
             happened.reverse();
@@ -375,7 +392,7 @@ impl Walk<'_> {
         &mut self,
         start: &Point,
         is_upwards: bool,
-        count: usize,
+        pace: Pace,
         (points, special): (&mut Vec<Point>, &mut Vec<Special>),
     ) -> Result<End, OrbitError> {
         let m = self.scale.len();
@@ -392,9 +409,9 @@ impl Walk<'_> {
         }
         let mut before: Option<Stand> = None;
         let mut happened = Vec::new();
-        let mut length = FIRST;
+        let mut length = FIRST.min(pace.step);
         let end = loop {
-            if points.len() >= count {
+            if points.len() >= pace.points {
                 break End::Points;
             }
             if is_at_end(&at.y) && (at.tangent[m] > 0.0) == (at.y[m] >= 1.0) {
@@ -428,7 +445,7 @@ impl Walk<'_> {
             }
             before = Some(std::mem::replace(&mut at, next));
             if steps <= 3 {
-                length = (1.5 * length).min(LONGEST);
+                length = (1.5 * length).min(pace.step);
             }
         };
         happened.sort_by(|a, b| a.0.total_cmp(&b.0));

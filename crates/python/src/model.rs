@@ -57,6 +57,7 @@ struct Linearized {
     speeds: Option<String>,
     outputs: Option<String>,
     symbolic: bool,
+    numbers: bool,
     over: Option<String>,
     at: Option<String>,
 }
@@ -512,7 +513,7 @@ impl Model {
     }
 
     /// Steady motions or periodic orbits over a range of a parameter, in words and as JSON: `follow`.
-    #[pyo3(signature = (about, over, orbit, period, points, tell=None))]
+    #[pyo3(signature = (about, over, orbit, period, points, step, tell=None))]
     #[allow(
         clippy::too_many_arguments,
         reason = "the keywords of a method in Python"
@@ -525,6 +526,7 @@ impl Model {
         orbit: bool,
         period: Option<String>,
         points: usize,
+        step: f64,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, String)> {
         let found = waiting::done(py, tell, |hooks| {
@@ -536,6 +538,7 @@ impl Model {
                     orbit,
                     period: period.as_deref(),
                     points: Some(points),
+                    step: Some(step),
                 };
                 follow::follow(&self.model, &wanted).map_err(Box::new)
             })
@@ -642,8 +645,10 @@ impl Model {
                         speeds: wanted.speeds.as_deref(),
                         outputs: wanted.outputs.as_deref(),
                         symbolic: wanted.symbolic,
+                        numbers: wanted.numbers,
                         over: wanted.over.as_deref(),
                         at: wanted.at.as_deref(),
+                        work: None,
                     },
                 )
                 .map_err(Box::new)

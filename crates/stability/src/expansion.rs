@@ -3,7 +3,7 @@
 use crate::guess::near;
 use crate::problem::LinearizationError;
 use crate::reduction::{ClosedSystem, Speeds};
-use crate::steady::{at_point, completed, State};
+use crate::steady::{at_point, completed, solution, State};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
@@ -134,7 +134,8 @@ impl<'a> Expansion<'a> {
 
     fn check_constraints(&self) -> Result<(), LinearizationError> {
         let g = self.graph();
-        for &row in &self.selection.rows {
+        // Constraints that follow from others hold with them, but where only the derivative of a finite one is among these.
+        for row in 0..self.terms.constraints.len() {
             let constraint = &self.system.constraints[self.terms.constraint_index[row]];
             let of_positions = match constraint.kind {
                 ConstraintKind::Holonomic => Some(constraint.stated),
@@ -169,9 +170,20 @@ impl<'a> Expansion<'a> {
             .iter()
             .map(|&j| &self.system.coordinates[j].name);
         let of_speeds = self.own.characteristics.parameters.iter().map(|p| &p.name);
-        let rates = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
-        let moving = of_coordinates.chain(of_speeds).zip(self.at(&rates));
-        let mut moving = moving.filter(|(_, rate)| !g.is_zero(*rate));
+        let force = self.at(&self.own.equations.force);
+        let speeds = if force.iter().all(|&e| g.is_zero(e)) {
+            force
+        } else {
+            // What the speeds change by is the force divided by the mass, where that is regular.
+            let mass = self.at_rows(&self.own.equations.mass);
+            let solved = solution(g, (&mass, force.len()), &force);
+            solved.map_or(force, |own| own.values)
+        };
+        let rates = self.at(&self.own.rates).into_iter().chain(speeds);
+        let mut moving = of_coordinates
+            .chain(of_speeds)
+            .zip(rates)
+            .filter(|(_, rate)| !g.is_zero(*rate));
         match moving.next() {
             None => Ok(()),
             Some((name, rate)) => Err(LinearizationError::NotSteady {
@@ -199,19 +211,31 @@ impl<'a> Expansion<'a> {
     /// The derivatives of the rates and of b by the coordinates that are not ignorable and by P, at the motion.
     pub(crate) fn slopes(&self) -> Vec<Vec<Expr>> {
         let c = &self.own.characteristics;
+        let g = self.graph();
         let rates = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
+        let rates = g.substitute_all(&rates, &self.values);
+        if c.manifold.implicit.is_empty() {
+            return self.at_rows(&g.jacobian(&rates, &self.variables()));
+        }
         let by_coordinates = self
             .own
             .coordinates
             .iter()
             .map(|&j| c.along(self.system, &rates, &self.unit(j)));
-        let columns: Vec<Vec<Expr>> = by_coordinates.map(|column| self.at(&column)).collect();
-        let by_speeds: Vec<Vec<Expr>> = c.by_parameters(self.system, &rates);
+        let columns: Vec<Vec<Expr>> = by_coordinates.collect();
+        let by_speeds = c.by_parameters(self.system, &rates);
         let rows = by_speeds.iter().enumerate().map(|(row, own)| {
             let of_coordinates = columns.iter().map(|column| column[row]);
-            of_coordinates.chain(self.at(own)).collect()
+            of_coordinates.chain(own.iter().copied()).collect()
         });
-        rows.collect()
+        self.at_rows(&rows.collect::<Vec<_>>())
+    }
+
+    /// The entries of a matrix at the motion, all in one pass: they share most of what they are made of.
+    pub(crate) fn at_rows(&self, rows: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+        let mut values = self.at(&rows.concat()).into_iter();
+        let row = |row: &Vec<Expr>| values.by_ref().take(row.len()).collect();
+        rows.iter().map(row).collect()
     }
 
     /// The variables: the coordinates that are not ignorable, then the quasi-velocities.

@@ -113,9 +113,9 @@ impl Expansion<'_> {
     pub(crate) fn finite_equations(&self) -> Vec<(Expr, Vec<Expr>)> {
         let g = self.graph();
         let variables = self.variables();
-        let gradient = |e: Expr| self.at(&g.gradient(e, &variables));
-        let finite = self.finite().into_iter();
-        finite.map(|e| (e, gradient(e))).collect()
+        let finite = self.finite();
+        let gradients = self.at_rows(&g.jacobian(&finite, &variables));
+        finite.into_iter().zip(gradients).collect()
     }
 }
 

@@ -70,13 +70,7 @@ impl Expansion<'_> {
         let g = self.graph();
         let (places, k) = (&self.own.coordinates, self.own.characteristics.k());
         let right = self.slopes();
-        let mass: Vec<Vec<Expr>> = self
-            .own
-            .equations
-            .mass
-            .iter()
-            .map(|row| self.at(row))
-            .collect();
+        let mass = self.at_rows(&self.own.equations.mass);
         let reduction = self.reduction();
         let (tangent, kept) = (&reduction.dependent, &reduction.kept);
         let rows = kept.iter().copied().chain(places.len()..places.len() + k);
@@ -166,13 +160,11 @@ impl Expansion<'_> {
             .chain(&self.own.coordinates)
             .copied()
             .collect();
-        let mut gradients: Vec<Vec<Expr>> = finite
-            .map(|c| {
-                let gradient = g.gradient(c.stated, &self.system.coordinate_symbols());
-                let gradient = self.at(&gradient);
-                order.iter().map(|&j| gradient[j]).collect()
-            })
-            .collect();
+        let symbols = self.system.coordinate_symbols();
+        let gradients = finite.map(|c| g.gradient(c.stated, &symbols));
+        let gradients = self.at_rows(&gradients.collect::<Vec<_>>());
+        let in_order = |row: &Vec<Expr>| order.iter().map(|&j| row[j]).collect();
+        let mut gradients: Vec<Vec<Expr>> = gradients.iter().map(in_order).collect();
         // Ignorable coordinates are solved for first: what is left restricts the others.
         let solved = echelon(g, &mut gradients, ignorable.len()).columns.len();
         let mut rest: Vec<Vec<Expr>> = gradients[solved..]

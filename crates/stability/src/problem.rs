@@ -15,7 +15,7 @@ pub enum LinearizationError {
     #[error("a mass of this system changes along the motion, so that no motion is steady")]
     MassesMove,
     /// The time occurs.
-    #[error("the equations contain the time explicitly, so that no motion is steady")]
+    #[error("the equations contain the time explicitly, so that no motion is steady; `chetaev linearize --along` takes the motion from the initial state")]
     NotAutonomous,
     /// No independent velocities.
     #[error(transparent)]
@@ -61,7 +61,7 @@ pub enum LinearizationError {
         motion: String,
         /// A coordinate or a quasi-velocity.
         quantity: String,
-        /// Its rate (for quasi-velocities the force that changes it).
+        /// Its rate; the force on a quasi-velocity where the mass matrix is singular.
         rate: String,
         /// Lower and upper bound of it, where it is a number.
         enclosure: Option<(String, String)>,

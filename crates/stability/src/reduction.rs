@@ -7,12 +7,15 @@ use crate::problem::LinearizationError;
 use chetaev_mechanics::characteristics::Characteristics;
 use chetaev_mechanics::mass;
 use chetaev_mechanics::reduced_equations::ReducedEquations;
-use chetaev_mechanics::regular::regular;
+use chetaev_mechanics::regular::{regular, regular_as_stated};
+use chetaev_mechanics::sample::Generator;
 use chetaev_mechanics::{MotionTerms, Selection, System};
+use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol, Verdict};
 use nalgebra::{DMatrix, RowDVector};
+use std::collections::BTreeMap;
 
 /// Which speeds are variables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +63,10 @@ impl ClosedSystem {
         let suitable = || {
             let stated = Characteristics::quasi_velocities(system, terms, selection);
             let stated = stated.and_then(Result::ok).filter(serves);
-            stated.or_else(|| regular(system, terms, &selection.rows))
+            let rows = &selection.rows;
+            stated
+                .or_else(|| regular(system, terms, rows))
+                .or_else(|| regular_as_stated(system, terms, rows))
         };
         let independent = |selection: &Selection| {
             Characteristics::independent_velocities(system, terms, selection)
@@ -241,6 +247,9 @@ pub(crate) fn without(g: &Graph, es: &[Expr], symbol: Expr) -> Option<Vec<Expr>>
 }
 
 fn with_number(g: &Graph, es: &[Expr], symbol: Expr, number: Expr) -> Option<Vec<Expr>> {
+    if changes(g, es, symbol) {
+        return None;
+    }
     let at_zero = g.substitute_all(es, &[(symbol, number)]);
     let pairs = es.iter().zip(&at_zero);
     let differences: Vec<Expr> = pairs.map(|(&a, &b)| g.sub(a, b)).collect();
@@ -254,3 +263,46 @@ fn with_number(g: &Graph, es: &[Expr], symbol: Expr, number: Expr) -> Option<Vec
     let verdict = decide_zero(g, &ZeroTest { options, ..test });
     matches!(verdict, Verdict::Proved(_)).then_some(at_zero)
 }
+
+/// Whether expressions depend on a symbol, where two places show it: doubles say which one may, and balls prove that it does. Then no proof of
+/// the contrary need be sought.
+fn changes(g: &Graph, es: &[Expr], symbol: Expr) -> bool {
+    let Some(moved) = g.as_symbol(symbol) else {
+        return false;
+    };
+    let mut generator = Generator::new(0x5749_5448);
+    let others = g.symbols_in(es).into_iter();
+    let others: BTreeMap<Symbol, f64> = others.map(|s| (s, generator.between(0.5, 1.5))).collect();
+    let place = |s: Symbol, at: f64| {
+        let own = (s == moved).then_some(at);
+        own.or_else(|| others.get(&s).copied())
+    };
+    let numbers = |at: f64| g.evaluate_f64(es, &|s| place(s, at)).ok();
+    let [Some(one), Some(other)] = PLACES.map(numbers) else {
+        return false;
+    };
+    let differs = |a: f64, b: f64| {
+        let difference = (a - b).abs();
+        difference.is_finite() && difference > 1e-6 * (a.abs() + b.abs())
+    };
+    let pairs = one.iter().zip(&other).enumerate();
+    let changed = pairs.filter(|(_, (&a, &b))| differs(a, b));
+    let smallest = changed.min_by_key(|&(at, _)| g.reachable(&[es[at]]).len());
+    let Some((first, _)) = smallest else {
+        return false;
+    };
+    let precision = Precision::new(64);
+    let ball = |at: f64| {
+        let exact = |s: Symbol| Some(precision.rational(&Rational::try_from(place(s, at)?).ok()?));
+        g.enclose(&[es[first]], &precision, &exact).ok()?.pop()
+    };
+    let [Some(one), Some(other)] = PLACES.map(ball) else {
+        return false;
+    };
+    precision
+        .sub(&one, &other)
+        .is_ok_and(|own| own.excludes_zero())
+}
+
+/// Two places of a coordinate.
+const PLACES: [f64; 2] = [0.4, 1.1];

@@ -3,7 +3,7 @@
 use crate::expansion::Expansion;
 use crate::linearization::Linearization;
 use crate::multiplicity::product;
-use crate::steady::closed;
+use crate::steady::{closed, echelon};
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::matrix::{determinant, inverse};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -100,7 +100,10 @@ impl Expansion<'_> {
             .iter()
             .map(|row| row[first..].to_vec())
             .collect();
-        let of_mass = inverse(g, &mass)?;
+        let of_mass = match inverse_of_numbers(g, &mass) {
+            Some(found) => found,
+            None => inverse(g, &mass)?,
+        };
         let entry = |r: usize, c: usize| match (r.checked_sub(first), c.checked_sub(first)) {
             (Some(r), Some(c)) => closed(g, of_mass[r][c]),
             (None, None) if r == c => g.one(),
@@ -139,9 +142,7 @@ impl Expansion<'_> {
         let rows: Vec<Expr> = rates
             .chain(self.own.equations.force.iter().copied())
             .collect();
-        rows.iter()
-            .map(|&e| self.at(&g.gradient(e, inputs)))
-            .collect()
+        self.at_rows(&g.jacobian(&rows, inputs))
     }
 
     /// The rows of C and D of an output.
@@ -172,6 +173,29 @@ impl Expansion<'_> {
         let by = self.at(&g.gradient(own, inputs));
         Ok((self.reduced(&self.reduction(), &row), by))
     }
+}
+
+/// The inverse of a matrix of numbers, by one elimination; `None` where an entry is none, or the matrix is singular.
+fn inverse_of_numbers(g: &Graph, matrix: &[Vec<Expr>]) -> Option<Vec<Vec<Expr>>> {
+    let n = matrix.len();
+    if matrix.iter().flatten().any(|&e| g.as_number(e).is_none()) {
+        return None;
+    }
+    let unit = |r: usize, c: usize| if r == c { g.one() } else { g.zero() };
+    let beside = |(r, row): (usize, &Vec<Expr>)| -> Vec<Expr> {
+        row.iter()
+            .copied()
+            .chain((0..n).map(|c| unit(r, c)))
+            .collect()
+    };
+    let mut rows: Vec<Vec<Expr>> = matrix.iter().enumerate().map(beside).collect();
+    let columns = echelon(g, &mut rows, n).columns;
+    // The row with a one in a column says what its unknown is.
+    let row = |column: usize| {
+        let at = columns.iter().position(|&own| own == column)?;
+        Some(rows[at][n..].to_vec())
+    };
+    (0..n).map(row).collect()
 }
 
 /// The symbol s of transfer functions.

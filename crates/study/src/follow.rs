@@ -18,7 +18,7 @@ use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};
 use chetaev_model::Model;
 use chetaev_motion::{consistent_state, Binding, NumericError, NumericSystem};
-use chetaev_orbits::branch::{self, Branch, End, Equations, Point};
+use chetaev_orbits::branch::{self, Branch, End, Equations, Pace, Point};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
@@ -41,6 +41,8 @@ pub struct Wanted<'a> {
     pub period: Option<&'a str>,
     /// At most so many points on each side of the start.
     pub points: Option<usize>,
+    /// The longest step along the curve, the range and the size of the state being of length 1.
+    pub step: Option<f64>,
 }
 
 /// Why nothing was followed.
@@ -67,6 +69,12 @@ pub enum FollowError {
     /// The motion was not followed.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
+    /// A step that is none.
+    #[error("a step along the curve lies between 0 and 1, of which 1 is the whole range; {step} does not")]
+    Step {
+        /// What was given.
+        step: f64,
+    },
     /// A parameter on which the equations do not depend.
     #[error("`{name}` does not occur in the equations of motion: where it names the members of a family of steady motions, `chetaev stability --over {name}=...` says from which on they are stable")]
     OfFamily {
@@ -96,9 +104,6 @@ pub struct Followed {
     pub branch: Branch,
 }
 
-/// Points on each side of the start where nothing else is said.
-const POINTS: usize = 500;
-
 /// A motion over a range of a parameter.
 ///
 /// # Errors
@@ -123,7 +128,7 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
     let period = period.transpose().map_err(StabilityError::Expression)?;
     let period = period.map(|e| system.with_definitions(e));
     let start = flow.state(&point)?;
-    let span = (range.as_ref(), wanted.points.unwrap_or(POINTS));
+    let span = (range.as_ref(), pace(wanted)?);
     let (branch, periods) = if wanted.orbit {
         orbits(&flow, &start, (parameter, period), (model, &system), span)?
     } else {
@@ -140,6 +145,19 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
         periods,
         range,
         branch,
+    })
+}
+
+/// How far and how finely.
+fn pace(wanted: &Wanted<'_>) -> Result<Pace, FollowError> {
+    let usual = Pace::default();
+    let step = wanted.step.unwrap_or(usual.step);
+    if !(step > 0.0 && step <= 1.0) {
+        return Err(FollowError::Step { step });
+    }
+    Ok(Pace {
+        points: wanted.points.unwrap_or(usual.points),
+        step,
     })
 }
 
@@ -215,12 +233,12 @@ fn steady_motions(
     flow: &Flow,
     start: &[f64],
     parameter: Option<Symbol>,
-    (range, points): (Option<&Range>, usize),
+    (range, pace): (Option<&Range>, Pace),
 ) -> Result<Branch, FollowError> {
     let mut equations = Equilibria::new(flow, parameter)?;
     let p = parameter.and_then(|s| flow.place(s));
     let p = p.map_or(0.0, |place| flow.parameters[place].1);
-    curve(&mut equations, (start, p), range, points)
+    curve(&mut equations, (start, p), range, pace)
 }
 
 /// Periodic orbits with their periods: near the start, or else near where the motion from it arrives, as it does at orbits that attract.
@@ -229,7 +247,7 @@ fn orbits(
     start: &[f64],
     (parameter, period): (Option<Symbol>, Option<Expr>),
     (model, system): (&Model, &System),
-    (range, points): (Option<&Range>, usize),
+    (range, pace): (Option<&Range>, Pace),
 ) -> Result<(Branch, Vec<f64>), FollowError> {
     let mut equations = Shooting::new(flow, parameter, period)?;
     let value = |s: Symbol| flow.place(s).map(|place| flow.parameters[place].1);
@@ -242,7 +260,7 @@ fn orbits(
     let mut near = |start: &[f64]| {
         let guess = given.map_or_else(|| period_guess(flow, start, end), Ok)?;
         let unknowns = equations.unknowns(start, guess);
-        curve(&mut equations, (&unknowns, p), range, points)
+        curve(&mut equations, (&unknowns, p), range, pace)
     };
     let found = match near(start) {
         Err(FollowError::Orbit(first)) if flow.is_autonomous() => {
@@ -271,12 +289,12 @@ fn curve(
     equations: &mut dyn Equations,
     (start, p): (&[f64], f64),
     range: Option<&Range>,
-    points: usize,
+    pace: Pace,
 ) -> Result<Branch, FollowError> {
     match range {
         Some(range) => {
             let ends = (range.low.to_f64().value(), range.high.to_f64().value());
-            Ok(branch::follow(equations, (start, p), ends, points)?)
+            Ok(branch::follow(equations, (start, p), ends, pace)?)
         }
         None => {
             let (point, family) = branch::solution(equations, start, p)?;

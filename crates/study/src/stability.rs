@@ -28,6 +28,7 @@ use chetaev_stability::question::{parameter_of_motion, values_but, Question};
 use chetaev_stability::reduction::Speeds;
 use chetaev_stability::state_space::StateSpace;
 use chetaev_stability::steady_set::{steady_set, SteadySet, SteadySetError};
+use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
 /// Eigenvalues that differ by less, in parts of the largest, are one for the table of modes.
@@ -52,6 +53,10 @@ pub struct Wanted<'a> {
     pub outputs: Option<&'a str>,
     /// Whether all parameters stay symbols.
     pub symbolic: bool,
+    /// Whether all parameters have their values from the beginning.
+    pub numbers: bool,
+    /// Work for the linear equations in symbols, counted as seconds, before they are made in numbers; [`WORK`] where it is left out.
+    pub work: Option<f64>,
 }
 
 /// A range of a parameter.
@@ -93,14 +98,67 @@ pub struct Stability {
     pub space: StateSpace,
     /// Their parts of second order, where there are such.
     pub parts: Option<Parts>,
+    /// Why all parameters have their values.
+    pub numbers: Option<Numbers>,
 }
+
+/// Why all parameters have their values, and none is left in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    /// That was asked for.
+    Asked,
+    /// The equations in symbols took more work than they may.
+    TooLarge,
+}
+
+/// Work for the linear equations in symbols, counted as seconds; a chain of 32 links takes a third of it. With numbers alone it is not limited.
+pub const WORK: f64 = 3.0;
 
 /// The linear equations about a steady motion of a model, and their stability over a range of a parameter.
 ///
 /// # Errors
 /// [`StabilityError`].
 pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, StabilityError> {
-    let mut system = System::from_model(model)?;
+    let system = System::from_model(model)?;
+    if wanted.numbers {
+        return in_numbers(model, system, wanted, Numbers::Asked);
+    }
+    if wanted.symbolic || wanted.over.is_some() {
+        return in_symbols(model, system, wanted);
+    }
+    let symbolic = || in_symbols(model, system.clone(), wanted);
+    match within(&Work::of_seconds(wanted.work.unwrap_or(WORK)), symbolic) {
+        Ok(found) => found,
+        Err(_) => in_numbers(model, system, wanted, Numbers::TooLarge),
+    }
+}
+
+/// The same with the values of all parameters put in before anything is derived, so that all arithmetic is that of numbers, and exact.
+fn in_numbers(
+    model: &Model,
+    system: System,
+    wanted: &Wanted<'_>,
+    why: Numbers,
+) -> Result<Stability, StabilityError> {
+    let values = values_but(&system, None);
+    let put_in = system.with_parameters(&values).unwrap_or(system);
+    let wanted = Wanted {
+        numbers: true,
+        ..*wanted
+    };
+    let found = in_symbols(model, put_in, &wanted)?;
+    Ok(Stability {
+        numbers: Some(why),
+        ..found
+    })
+}
+
+/// The linear equations of a system about the motion that is wanted, with the parameters that it has.
+fn in_symbols(
+    model: &Model,
+    mut system: System,
+    wanted: &Wanted<'_>,
+) -> Result<Stability, StabilityError> {
     let prepared = Prepared::new(&system)?;
     let (terms, mut selection) = (&prepared.terms, prepared.selection.clone());
     let speeds = match wanted.speeds {
@@ -143,7 +201,7 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
         let motion = &*motion;
         let free = match &range {
             Some(range) => Some(range.symbol),
-            None if wanted.symbolic => None,
+            None if wanted.symbolic || wanted.numbers => None,
             None => parameter_of_motion(&system, motion),
         };
         let values = if over.is_none() && wanted.symbolic {
@@ -167,6 +225,7 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
                     ranges,
                     space,
                     system,
+                    numbers: None,
                 });
             }
             // What was found is steady: its values are not simple enough to show it.
@@ -176,8 +235,18 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
             Err(own) => problem = Some(own),
         }
     }
+    let is_of_system = matches!(
+        problem,
+        Some(
+            LinearizationError::NotAutonomous
+                | LinearizationError::MassesMove
+                | LinearizationError::OrderTooHigh { .. }
+        )
+    );
     match problem {
-        Some(own) if wanted.about.is_some() || !system.steady.is_empty() => Err(own.into()),
+        Some(own) if is_of_system || wanted.about.is_some() || !system.steady.is_empty() => {
+            Err(own.into())
+        }
         _ => {
             let found = steady_set(&system, terms, &prepared.selection, &wanted_values);
             Err(StabilityError::NoMotion {
@@ -268,8 +337,11 @@ fn check_parameter(
     let names = system.parameters.iter().map(|p| p.name.clone());
     let mut known: Vec<String> = names.collect();
     let of_motions = g.symbols_in(&places).into_iter();
-    known.extend(of_motions.map(|s| g.symbol_text(s)));
-    known.dedup();
+    for name in of_motions.map(|s| g.symbol_text(s)) {
+        if !known.contains(&name) {
+            known.push(name);
+        }
+    }
     if known.contains(&range.name) {
         return Ok(());
     }
@@ -510,9 +582,12 @@ impl Stability {
     }
 
     fn table(&self, range: &Range) -> Vec<(f64, Vec<(f64, f64)>)> {
-        let low = range.low.to_f64().value();
-        let high = range.high.to_f64().value();
-        let at = |row: usize| low + (high - low) * row as f64 / (ROWS - 1) as f64;
+        // Exact, so that -1/5 is written as -0.2.
+        let at = |row: usize| {
+            let part = Rational::from(row) / Rational::from(ROWS - 1);
+            let value = &range.low + (&range.high - &range.low) * part;
+            value.to_f64().value()
+        };
         let rows = (0..ROWS).map(|row| (at(row), self.eigenvalues(Some(at(row)))));
         rows.filter_map(|(value, list)| Some((value, list?)))
             .collect()

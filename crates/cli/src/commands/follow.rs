@@ -19,6 +19,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         orbit: arguments.orbit,
         period: arguments.period.as_deref(),
         points: Some(arguments.points),
+        step: Some(arguments.step),
     };
     let found = with_progress(|line| {
         line.show("following", None);

@@ -23,7 +23,9 @@ pub(crate) fn linearize(arguments: &Linearize) -> u8 {
         speeds: arguments.speeds.as_deref(),
         outputs: arguments.outputs.as_deref(),
         symbolic: arguments.symbolic,
+        numbers: arguments.numbers,
         over: None,
+        work: None,
     };
     answer(&arguments.model, &wanted, |found| {
         if let Some(path) = &arguments.save {

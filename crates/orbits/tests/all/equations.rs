@@ -5,8 +5,9 @@
     reason = "test code fails where it stands, and has the digits of its sources"
 )]
 
+use crate::points;
 use chetaev_integrate::Output;
-use chetaev_orbits::branch::{follow, solution, Equations, Kind};
+use chetaev_orbits::branch::{follow, solution, Equations, Kind, Pace};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::periodic::{period_guess, Shooting};
 use chetaev_orbits::variational::{Column, Extended, Order, Variational};
@@ -39,9 +40,8 @@ fn is_close(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// Lorenz 1963 at σ = 10, b = 8/3: a Hopf point at r = 470/19, ω² = 2 σ b (σ + 1)/(σ − b − 1), l₁ > 0 (Marsden and McCracken 1976).
-#[test]
-fn lorenz() {
+/// Lorenz 1963 at σ = 10, b = 8/3, with the symbol of r.
+fn lorenz_flow() -> (Flow, Symbol) {
     let own = Plain::new();
     let g = &own.g;
     let [(xs, x), (ys, y), (zs, z), (rs, r)] = ["x", "y", "z", "r"].map(|name| own.s(name));
@@ -53,8 +53,51 @@ fn lorenz() {
         g.sub(g.mul(&[x, y]), g.mul(&[b, z])),
     ];
     let flow = Flow::of_rates(own.g.clone(), vec![xs, ys, zs], rates, vec![(rs, 20.0)]);
+    (flow, rs)
+}
+
+/// Steps of a thousandth of the range make a thousand points, each a solution: x = y = √(b (r − 1)), z = r − 1.
+#[test]
+fn a_thousand_points() {
+    let (flow, rs) = lorenz_flow();
     let mut equations = Equilibria::new(&flow, Some(rs)).unwrap();
-    let found = follow(&mut equations, (&[7.0, 7.0, 19.0], 20.0), (0.5, 30.0), 500).unwrap();
+    let pace = Pace {
+        points: 5000,
+        step: 0.001,
+    };
+    let found = follow(
+        &mut equations,
+        (&[7.0, 7.0, 19.0], 20.0),
+        (10.0, 30.0),
+        pace,
+    )
+    .unwrap();
+    assert!(found.points.len() >= 1000, "{}", found.points.len());
+    for own in &found.points {
+        let x = (8.0_f64 / 3.0 * (own.parameter - 1.0)).sqrt();
+        let expected = [x, x, own.parameter - 1.0];
+        for (found, expected) in own.unknowns.iter().zip(expected) {
+            is_close(*found, expected, 1e-12);
+        }
+    }
+    let gaps = found.points.windows(2);
+    let longest = gaps.map(|two| two[1].parameter - two[0].parameter);
+    let longest = longest.fold(0.0, f64::max);
+    assert!(longest <= 0.001 * 20.0, "{longest}");
+}
+
+/// Lorenz 1963 at σ = 10, b = 8/3: a Hopf point at r = 470/19, ω² = 2 σ b (σ + 1)/(σ − b − 1), l₁ > 0 (Marsden and McCracken 1976).
+#[test]
+fn lorenz() {
+    let (flow, rs) = lorenz_flow();
+    let mut equations = Equilibria::new(&flow, Some(rs)).unwrap();
+    let found = follow(
+        &mut equations,
+        (&[7.0, 7.0, 19.0], 20.0),
+        (0.5, 30.0),
+        points(500),
+    )
+    .unwrap();
     assert_eq!(found.family, 0);
     let hopf = found.special.iter().find_map(|own| match own.kind {
         Kind::Hopf {
@@ -94,7 +137,7 @@ fn brusselator() {
     ];
     let flow = Flow::of_rates(own.g.clone(), vec![xs, ys], rates, vec![(bs, 2.0)]);
     let mut equations = Equilibria::new(&flow, Some(bs)).unwrap();
-    let found = follow(&mut equations, (&[1.2, 1.4], 2.0), (1.5, 3.5), 500).unwrap();
+    let found = follow(&mut equations, (&[1.2, 1.4], 2.0), (1.5, 3.5), points(500)).unwrap();
     assert_eq!(found.special.len(), 1, "{:?}", found.special);
     is_close(found.special[0].point.parameter, 2.69, 1e-13);
     match found.special[0].kind {
@@ -125,7 +168,7 @@ fn brusselator() {
     let mean: f64 = rows[..400].iter().map(|(_, z)| divergence(z)).sum::<f64>() / 400.0;
     is_close(multiplier, (mean * period).exp(), 1e-10);
     // Down to where it is born the orbit shrinks like the root of B − 1 − A².
-    let shrinking = follow(&mut orbits, (&orbit.unknowns, 3.0), (2.7, 3.0), 300).unwrap();
+    let shrinking = follow(&mut orbits, (&orbit.unknowns, 3.0), (2.7, 3.0), points(300)).unwrap();
     let first = shrinking.points.first().unwrap();
     is_close(first.parameter, 2.7, 1e-12);
     is_close(first.unknowns[2], std::f64::consts::TAU / 1.3, 1e-2);
@@ -178,7 +221,7 @@ fn mathieu() {
         let flow = Flow::of_rates(own.g.clone(), vec![xs, vs], rates.clone(), parameters);
         let mut orbits = Shooting::new(&flow, Some(a_s), Some(g.pi())).unwrap();
         let range = (-6.0, 12.0);
-        let found = follow(&mut orbits, (&[0.0, 0.0], 0.5), range, 2000).unwrap();
+        let found = follow(&mut orbits, (&[0.0, 0.0], 0.5), range, points(2000)).unwrap();
         let all: Vec<(f64, &str)> = found
             .special
             .iter()

@@ -4,3 +4,13 @@
 mod equations;
 mod random;
 mod systems;
+
+use chetaev_orbits::branch::Pace;
+
+/// At most so many points on each side of the start, in steps of the usual length.
+fn points(points: usize) -> Pace {
+    Pace {
+        points,
+        ..Pace::default()
+    }
+}

@@ -5,6 +5,7 @@
     reason = "test code fails where it stands, and has the digits of its sources"
 )]
 
+use crate::points;
 use chetaev_integrate::Output;
 use chetaev_mechanics::{Prepared, System};
 use chetaev_model::load;
@@ -86,7 +87,7 @@ V = "g l cos(theta)"
             1e-12,
         );
     }
-    let found = follow(&mut orbits, (&[0.0, 0.0], 90.0), (90.0, 110.0), 500).unwrap();
+    let found = follow(&mut orbits, (&[0.0, 0.0], 90.0), (90.0, 110.0), points(500)).unwrap();
     assert_eq!(found.special.len(), 1, "{:?}", found.special);
     assert_eq!(found.special[0].kind, Kind::BranchPoint);
     is_close(
@@ -115,7 +116,13 @@ s = "alpha (cos(x) - beta)"
     assert_eq!(flow.names, ["x", "x'", "s'"]);
     let eps = flow.graph.intern_symbol("eps", 0);
     let mut equations = Equilibria::new(&flow, Some(eps)).unwrap();
-    let found = follow(&mut equations, (&[0.9, 0.0, 1.3], 0.6), (0.1, 1.0), 300).unwrap();
+    let found = follow(
+        &mut equations,
+        (&[0.9, 0.0, 1.3], 0.6),
+        (0.1, 1.0),
+        points(300),
+    )
+    .unwrap();
     assert_eq!(found.special.len(), 1, "{:?}", found.special);
     let special = &found.special[0];
     is_close(special.point.parameter, 0.464_758_001_544_890_03, 1e-12);
@@ -160,7 +167,7 @@ w = "phi'"
     assert_eq!(flow.names, ["u", "w"]);
     let a = flow.graph.intern_symbol("a", 0);
     let mut equations = Equilibria::new(&flow, Some(a)).unwrap();
-    let found = follow(&mut equations, (&[1.5, 0.0], 0.3), (-0.5, 0.5), 300).unwrap();
+    let found = follow(&mut equations, (&[1.5, 0.0], 0.3), (-0.5, 0.5), points(300)).unwrap();
     assert_eq!(found.family, 1);
     for own in &found.points {
         let at = own.parameter;
@@ -194,12 +201,12 @@ theta = "-0.1 theta'"
     );
     let rate = flow.graph.intern_symbol("W", 0);
     let mut equations = Equilibria::new(&flow, Some(rate)).unwrap();
-    let lowest = follow(&mut equations, (&[0.0, 0.0], 3.0), (2.0, 8.0), 300).unwrap();
+    let lowest = follow(&mut equations, (&[0.0, 0.0], 3.0), (2.0, 8.0), points(300)).unwrap();
     assert_eq!(lowest.special.len(), 1, "{:?}", lowest.special);
     assert_eq!(lowest.special[0].kind, Kind::BranchPoint);
     let critical = (9.81_f64 / 0.5).sqrt();
     is_close(lowest.special[0].point.parameter, critical, 1e-12);
-    let side = follow(&mut equations, (&[1.0, 0.0], 6.0), (2.0, 8.0), 300).unwrap();
+    let side = follow(&mut equations, (&[1.0, 0.0], 6.0), (2.0, 8.0), points(300)).unwrap();
     let fold = side.special.iter().find(|own| own.kind == Kind::Fold);
     is_close(fold.unwrap().point.parameter, critical, 1e-6);
     for own in &side.points {

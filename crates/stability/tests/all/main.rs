@@ -1,6 +1,7 @@
 //! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
 //! `cargo test -p chetaev-stability --test all MODULE::`.
 
+mod chains;
 mod common;
 mod reference;
 mod steady_set;

@@ -9,9 +9,13 @@
 use crate::common::Case;
 use chetaev_stability::characteristic::Characteristic;
 use chetaev_stability::eigenvalues::eigenvalues;
+use chetaev_stability::expansion::Expansion;
 use chetaev_stability::hurwitz::Crossing;
 use chetaev_stability::linearization::{LinearizationError, Variable};
-use chetaev_symbolic::Rational;
+use chetaev_stability::reduction::Speeds;
+use chetaev_symbolic::factors::coefficients;
+use chetaev_symbolic::number::ball::{Ball, Precision};
+use chetaev_symbolic::{Expr, Rational};
 
 fn decimal(text: &str) -> Rational {
     let (whole, part) = text.split_once('.').unwrap();
@@ -71,6 +75,17 @@ fn the_bicycle_is_stable_between_the_weave_speed_and_the_capsize_speed() {
             }
         }
     }
+    // They are polynomials in v, constant in M, of first degree in C₁ and of second in K.
+    let g = &case.system.graph;
+    let v = g.intern_symbol("v", 0);
+    let degree = |e: Expr| coefficients(g, e, v).unwrap().len() - 1;
+    for i in 2..4 {
+        for j in 0..2 {
+            assert_eq!(degree(linear.left[i][2 + j]), 0);
+            assert!(degree(linear.right[i][2 + j]) <= 1);
+            assert!(degree(linear.right[i][j]) <= 2);
+        }
+    }
     let found = case.ranges(&linear, "v", 0, 10);
     let stable: Vec<_> = found.regions.iter().filter(|r| r.is_left).collect();
     assert_eq!(stable.len(), 1);
@@ -103,6 +118,69 @@ fn the_bicycle_is_stable_between_the_weave_speed_and_the_capsize_speed() {
         assert!(high - low < decimal("0.0000000000000001"));
         assert_eq!(boundary.crossing, crossing);
     }
+}
+
+/// The characteristic polynomial of the bicycle is one and the same, exactly, in whatever order the model names its coordinates and whichever
+/// velocities are independent: at the heading zero these are those of lean and steer and one of x, thR, thF.
+#[test]
+fn the_polynomial_of_the_bicycle_knows_no_order_and_no_choice() {
+    let as_stated = Case::gallery("whipple-bicycle");
+    // The lines of the coordinates in the opposite order.
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../gallery/whipple-bicycle/model.toml"
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let lines = text.split("[coordinates]\n").nth(1).unwrap();
+    let lines = lines.split("\n\n").next().unwrap();
+    let turned: Vec<&str> = lines.lines().rev().collect();
+    let turned = Case::gallery_with("whipple-bicycle", lines, &turned.join("\n"));
+    assert_eq!(turned.system.coordinates[0].name, "thF");
+    let expected = monic(&as_stated, None);
+    for case in [&as_stated, &turned] {
+        for third in ["x", "thR", "thF"] {
+            let found = monic(case, Some(["phi", "delta", third]));
+            assert_eq!(found.len(), expected.len(), "{third}");
+            for (own, expected) in found.iter().zip(&expected) {
+                assert_eq!(own, expected, "{third}");
+            }
+        }
+    }
+}
+
+/// The coefficients of the characteristic polynomial of the upright bicycle without the zeros of its family, divided by the first, at v = 5, to
+/// thirty digits of their enclosures.
+fn monic(case: &Case, independent: Option<[&str; 3]>) -> Vec<String> {
+    let (system, g) = (&case.system, &case.system.graph);
+    let mut selection = case.prepared.selection.clone();
+    if let Some(names) = independent {
+        let all = system.coordinates.iter().enumerate();
+        let others = all.filter(|(_, c)| !names.contains(&c.name.as_str()));
+        selection.dependent = others.map(|(at, _)| at).collect();
+    }
+    let motion = case.motion(&[
+        ("psi", "0"),
+        ("phi", "0"),
+        ("theta", "0"),
+        ("delta", "0"),
+        ("phi'", "0"),
+        ("delta'", "0"),
+        ("x'", "v"),
+    ]);
+    let speeds = match independent {
+        Some(_) => Speeds::Independent,
+        None => Speeds::Suitable,
+    };
+    let values = case.values("");
+    let (terms, about) = (&case.prepared.terms, (&values[..], speeds));
+    let about = Expansion::in_speeds(system, terms, &selection, &motion, about).unwrap();
+    let polynomial = Characteristic::of(g, &about.linear()).unwrap();
+    let leading = *polynomial.coefficients.last().unwrap();
+    let ratios = polynomial.coefficients.iter().map(|&e| g.div(e, leading));
+    let ratios: Vec<Expr> = ratios.collect();
+    let balls = g.enclose(&ratios, &Precision::new(256), &|_| None).unwrap();
+    let text = |ball: &Ball| format!("{:?}", ball.to_decimal_interval(30));
+    balls.iter().map(text).collect()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What was asked of a steady motion, as data for other programs: matrices in numbers, LaTeX, JSON.
 
-use super::{named_parts, Stability};
+use super::{named_parts, Numbers, Stability};
 use crate::state_space::{latex, Matrices};
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::question::Place;
@@ -99,6 +99,12 @@ impl Stability {
             "characteristic_polynomial": polynomial,
             "eigenvalues": self.eigenvalues(self.stated()).map(pairs),
         });
+        if let Some(why) = self.numbers {
+            value["numbers"] = json!(match why {
+                Numbers::Asked => "asked",
+                Numbers::TooLarge => "too large in symbols",
+            });
+        }
         if let Some(range) = &self.range {
             value["parameter"] = json!(range.name);
             value["critical"] = match &self.ranges {

@@ -1,6 +1,7 @@
 //! What was asked of a steady motion, in words and columns for a terminal.
 
-use super::{named_parts, Mode, Stability};
+use super::{named_parts, Mode, Numbers, Stability};
+use chetaev_mechanics::system::Parameter;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::multiplicity::defects;
 use chetaev_stability::question::Place;
@@ -154,6 +155,9 @@ impl Stability {
                 linear.family
             );
         }
+        if let Some(why) = self.numbers {
+            let _ = writeln!(text, "{}", self.of_numbers(why));
+        }
         for (name, definition) in &linear.speeds {
             let written = self.graph().text(*definition);
             if *name != written {
@@ -161,6 +165,17 @@ impl Stability {
             }
         }
         text
+    }
+
+    /// What is said where no parameter is left in.
+    fn of_numbers(&self, why: Numbers) -> String {
+        let of = |p: &Parameter| Some(format!("{} = {}", p.name, self.graph().text(p.value?)));
+        let values: Vec<String> = self.system.parameters.iter().filter_map(of).collect();
+        let reason = match why {
+            Numbers::Asked => "",
+            Numbers::TooLarge => "The linear equations in symbols are too large to be printed.\n",
+        };
+        format!("{reason}Numbers, exact for {}", values.join(", "))
     }
 
     fn polynomial_text(&self) -> String {

@@ -2,4 +2,5 @@
 //! `cargo test -p chetaev-study --test all MODULE::`.
 
 mod integrals_along;
+mod linear;
 mod steps;

@@ -1,0 +1,112 @@
+//! Linear equations in symbols and in numbers, and what is said where there are none.
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+use chetaev_model::{load, Model, NoFiles};
+use chetaev_study::stability::{stability, Numbers, Stability, Wanted};
+
+const BICYCLE: &str = include_str!("../../../../gallery/whipple-bicycle/model.toml");
+const ROD: &str = r#"
+name = "rod"
+coordinates = ["x", "y"]
+parameters = { m = 3, l = 2, weight = "9 m" }
+[lagrangian]
+L = "1/2 m (x'^2 + y'^2) - weight y"
+[constraints]
+rod = "x^2 + y^2 = l^2"
+[steady.hanging]
+x = 0
+y = "-l"
+"#;
+
+fn model(text: &str) -> Model {
+    load("model.toml", text, &NoFiles, &[])
+        .into_result()
+        .unwrap()
+        .0
+}
+
+fn found(text: &str, wanted: &Wanted<'_>) -> Stability {
+    stability(&model(text), wanted).unwrap()
+}
+
+/// In numbers the equations are those in symbols at the values stated, whether they were asked for or symbols took too much work, and the answer says
+/// which.
+#[test]
+fn numbers_are_the_symbols_at_their_values() {
+    let symbols = found(BICYCLE, &Wanted::default());
+    assert_eq!(symbols.numbers, None);
+    let (expected, at) = (symbols.matrices(), symbols.eigenvalues(Some(5.0)).unwrap());
+    let asked = Wanted {
+        numbers: true,
+        ..Wanted::default()
+    };
+    let spent = Wanted {
+        work: Some(1e-4),
+        ..Wanted::default()
+    };
+    let ways = [
+        (asked, Numbers::Asked, "Numbers, exact for v = 5,"),
+        (spent, Numbers::TooLarge, "too large to be printed"),
+    ];
+    for (wanted, why, said) in ways {
+        let numbers = found(BICYCLE, &wanted);
+        assert_eq!(numbers.numbers, Some(why));
+        assert!(
+            numbers.linear_text().contains(said),
+            "{}",
+            numbers.linear_text()
+        );
+        assert_eq!(numbers.question.over, None);
+        for (own, expected) in numbers.matrices().matrices.iter().zip(&expected.matrices) {
+            assert_eq!(own.0, expected.0);
+            let pairs = own.1.iter().flatten().zip(expected.1.iter().flatten());
+            for (own, expected) in pairs {
+                assert!((own - expected).abs() <= 1e-12 * (1.0 + expected.abs()));
+            }
+        }
+        for (own, expected) in numbers.eigenvalues(None).unwrap().iter().zip(&at) {
+            let size = (own.0 - expected.0).hypot(own.1 - expected.1);
+            assert!(size < 1e-9, "{own:?} {expected:?}");
+        }
+    }
+}
+
+/// A chain of 32 links on blades is linearized in symbols within the work that is allowed.
+#[test]
+fn a_chain_of_32_links_stays_in_symbols() {
+    let text = include_str!("../../../../bench/models/snake.toml");
+    let text = text.replace("n = 2\n", "n = 32\n");
+    let text = text.replace("k = 0.3\n", "k = 0.3\nu = 1\n");
+    let text = format!("{text}\n[steady.straight]\n\"x'\" = \"u\"\n\"th_{{i}}\" = 0\n");
+    let own = found(&text, &Wanted::default());
+    assert_eq!(own.numbers, None);
+    assert_eq!(own.space.a.len(), 34);
+}
+
+#[test]
+fn what_is_wrong_is_said_once() {
+    let said = |text: &str, wanted: &Wanted<'_>| {
+        let problem = stability(&model(text), wanted).unwrap_err();
+        problem.to_string()
+    };
+    let over = |over| Wanted {
+        over: Some(over),
+        ..Wanted::default()
+    };
+    // A parameter of the model that is one of the motion too.
+    let known = said(ROD, &over("speed=0:1"));
+    assert!(
+        known.ends_with("its parameters are m, l, weight"),
+        "{known}"
+    );
+    // The time in the equations, and no motion named.
+    let shaken = ROD.replace("- weight y", "- weight y cos(t)");
+    let shaken = shaken.split("[steady").next().unwrap();
+    let known = said(shaken, &Wanted::default());
+    assert!(known.contains("--along"), "{known}");
+    // Values over a range are those that a person would write.
+    let table = found(ROD, &over("l=1:3")).ranges_text();
+    for value in ["l = 1.2 ", "l = 1.8 ", "l = 2.6 "] {
+        assert!(table.contains(value), "{table}");
+    }
+}
