@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use chetaev_model::{load, Model, NoFiles};
+use chetaev_study::stability::map::map;
 use chetaev_study::stability::{stability, Numbers, Stability, Wanted};
 
 const BICYCLE: &str = include_str!("../../../../gallery/whipple-bicycle/model.toml");
@@ -109,4 +110,20 @@ fn what_is_wrong_is_said_once() {
     for value in ["l = 1.2 ", "l = 1.8 ", "l = 2.6 "] {
         assert!(table.contains(value), "{table}");
     }
+}
+
+/// The pictures in the chapter of the book are those that the program draws.
+#[test]
+fn the_book_has_the_pictures_of_the_program() {
+    let eigenvalues = include_str!("../../../../docs/book/stability/bicycle.svg");
+    let over = |over| Wanted {
+        over: Some(over),
+        ..Wanted::default()
+    };
+    let drawn = found(BICYCLE, &over("v=0:10")).picture().unwrap();
+    assert!(drawn == eigenvalues);
+    let regions = include_str!("../../../../docs/book/stability/map.svg");
+    let two = over("v=0:10,c=0.02:0.14");
+    let drawn = map(&model(BICYCLE), &two, &mut |_| {}).unwrap();
+    assert!(drawn.picture() == regions);
 }
