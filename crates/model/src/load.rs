@@ -44,7 +44,7 @@ impl Loaded {
 /// Reads a model.
 ///
 /// `path` names the text in diagnostics, and included files are sought relative to it. `overrides` are pairs of the
-/// name of a parameter or size and its new value, an exact expression such as `0.3` or `1/3`.
+/// name of a parameter or size and its new value, an exact expression such as `0.3` or `1/3`; `initial.x'` names the initial value of `x'`.
 pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, String)]) -> Loaded {
     let mut loader = Loader::new(path, text, files, overrides);
     let source = loader.sources.add(path, text);
@@ -73,6 +73,7 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     let mut model = None;
     if let Some(mut table) = table.filter(|_| !failed) {
         rename_frame(&mut table, &mut diagnostics);
+        let overrides = into_initial(&mut table, file, overrides);
         let before = diagnostics.len();
         let mut conditions = bodies::lower(&mut table, file, &overrides, &mut diagnostics);
         let is_whole = diagnostics.len() == before;
@@ -222,6 +223,7 @@ pub fn lowered(
     };
     let mut written = String::new();
     if let Some(mut table) = table.filter(|_| !loader.failed) {
+        let outside = into_initial(&mut table, file, outside);
         bodies::lower(&mut table, file, &outside, &mut problems);
         for own in &outside {
             set(&mut table, own);
@@ -235,6 +237,38 @@ pub fn lowered(
     } else {
         Ok(written)
     }
+}
+
+/// Writes the values of `initial.NAME` into the initial data, in the place of what the file states there, and leaves the other overrides.
+fn into_initial(table: &mut Table, file: Place, overrides: Vec<Override>) -> Vec<Override> {
+    use chetaev_symbolic::syntax::names::normalized;
+    const HEADING: &str = "initial";
+    const PREFIX: &str = "initial.";
+    let (initial, others): (Vec<_>, Vec<_>) = overrides
+        .into_iter()
+        .partition(|own| own.name.content.starts_with(PREFIX));
+    for own in initial {
+        let source = own.value.place.source;
+        let name = Text::verbatim(&own.name.content[PREFIX.len()..], source, PREFIX.len());
+        let value = Raw {
+            place: own.value.place,
+            kind: Kind::Text(own.value),
+        };
+        if table.get(HEADING).is_none() {
+            let kind = Kind::Table(Table::default());
+            let key = Text::verbatim(HEADING, source, 0);
+            table.entries.push((key, Raw { place: file, kind }));
+        }
+        let Some(Kind::Table(section)) = table.get_mut(HEADING).map(|raw| &mut raw.kind) else {
+            continue;
+        };
+        let wanted = normalized(&name.content);
+        section
+            .entries
+            .retain(|(key, _)| normalized(&key.content) != wanted);
+        section.entries.push((name, value));
+    }
+    others
 }
 
 /// Writes an override into the section that declares its name.

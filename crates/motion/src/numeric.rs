@@ -136,7 +136,7 @@ const RESIDUAL: usize = 4;
 pub struct Binding {
     /// Symbols and values of the parameters.
     pub parameters: Vec<(Symbol, f64)>,
-    /// Substitution of controls and their derivatives by their laws.
+    /// Substitution of controls and their derivatives by their laws, and of what else is a function of time and parameters.
     pub controls: Vec<(Expr, Expr)>,
     /// The variables (t, q, masses with a law of their own, v) in this order.
     pub variables: Vec<Symbol>,
@@ -168,6 +168,18 @@ impl Binding {
             controls: control_laws(system)?,
             variables: variables(g, system),
         })
+    }
+
+    /// The same where some parameters follow from others, each with what it is in terms of free ones: they are computed from these, and have no
+    /// values of their own.
+    pub fn with_following(mut self, g: &Graph, following: &[(Expr, Expr)]) -> Binding {
+        let follows = |s: Symbol| following.iter().any(|own| g.as_symbol(own.0) == Some(s));
+        self.parameters.retain(|own| !follows(own.0));
+        for law in &mut self.controls {
+            law.1 = g.substitute(law.1, following);
+        }
+        self.controls.extend_from_slice(following);
+        self
     }
 }
 

@@ -8,8 +8,10 @@ use crate::flow::Flow;
 use chetaev_integrate::methods::TAYLOR;
 use chetaev_integrate::{integrate, EvaluationFailure, Options, Output, Stop, System};
 use chetaev_motion::series::RateSeries;
+use chetaev_symbolic::meter::spend;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use nalgebra::DMatrix;
+use std::ops::ControlFlow;
 
 /// What is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +77,8 @@ impl Extended {
 
 /// Relative tolerance of a run: the Taylor method goes down to the rounding of one operation.
 const TOLERANCE: f64 = 1e-15;
+/// What a step of one variable counts as: about two microseconds.
+const UNITS_OF_A_STEP: u64 = 200;
 
 impl Variational {
     /// The equations for the derivatives by `columns`.
@@ -130,8 +134,17 @@ impl Variational {
         start: &Extended,
         output: Output,
     ) -> Result<Vec<(f64, Extended)>, OrbitError> {
-        let options = Options::tolerance(TOLERANCE).method(&TAYLOR).output(output);
         let (n, first, second) = (self.n, self.first_columns(), self.pairs.len());
+        let width = n * (1 + first + second);
+        // Whoever waits may stop it after a step.
+        let mut count = |_| {
+            spend(UNITS_OF_A_STEP * width as u64);
+            ControlFlow::Continue(())
+        };
+        let options = Options {
+            progress: Some(&mut count),
+            ..Options::tolerance(TOLERANCE).method(&TAYLOR).output(output)
+        };
         let run = integrate(self, span, &start.row(), &mut [], options)?;
         if run.stop != Stop::Finished {
             return Err(OrbitError::EndsEarly {
@@ -140,7 +153,6 @@ impl Variational {
                 stop: run.stop,
             });
         }
-        let width = n * (1 + first + second);
         let extended = |row: &[f64]| Extended {
             state: row[..n].to_vec(),
             first: DMatrix::from_column_slice(n, first, &row[n..n * (1 + first)]),

@@ -3,19 +3,24 @@
 use crate::address::Door;
 use crate::problem;
 use crate::program::{Program, Ready};
+use crate::texts::Pairs;
 use chetaev::compile::{backend, BlockEvaluator, EvaluateFailure, Lanes, Lowering, LANES};
 use chetaev::mechanics::characteristics::CharacteristicsError;
 use chetaev::mechanics::{Prepared, System};
+use chetaev::model::model::ModelText;
+use chetaev::model::Model;
 use chetaev::motion::functions::FunctionsError;
 use chetaev::motion::{Binding, NumericError};
+use chetaev::study::free::following;
 use chetaev::symbolic::{Expr, Graph};
+use numpy::ndarray::{Axis, Slice};
 use numpy::{
     PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArray,
     PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::type_object::PyTypeInfo;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Why there are no functions.
@@ -46,7 +51,16 @@ pub(crate) struct Compiled {
     unknowns: Vec<Expr>,
     /// What the model defines by names, as functions of the state.
     definitions: Vec<(String, Expr)>,
+    origin: Arc<Origin>,
     known: [OnceLock<Arc<Program>>; WHAT.len()],
+}
+
+/// Where functions come from: enough to make them again anywhere.
+pub(crate) struct Origin {
+    /// The model.
+    pub(crate) text: ModelText,
+    /// Names of the components of the state.
+    pub(crate) state: Vec<String>,
 }
 
 /// What can be asked for.
@@ -60,16 +74,24 @@ const WHAT: [&str; 6] = [
 ];
 
 impl Compiled {
-    /// The functions of a system; `defined` are names with expressions, of which those are taken that the state determines.
-    pub(crate) fn new(
-        system: &System,
-        defined: Vec<(String, Expr)>,
-    ) -> Result<Compiled, NotCompiled> {
+    /// The functions of the system of a model. Of what the model defines by names, that is taken which the state determines; parameters
+    /// that follow from others are computed from these.
+    pub(crate) fn new(model: &Model, system: &System) -> Result<Compiled, NotCompiled> {
+        let g = &system.graph;
+        let defined = model.defines.iter().chain(&model.sensors);
+        let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
         let prepared = Prepared::new(system)?;
         if prepared.terms.order > 1 {
             return Err(NotCompiled::Order(prepared.terms.order));
         }
-        let binding = Binding::new(system)?;
+        let binding = Binding::new(system)?.with_following(g, &following(model));
+        let origin = Origin {
+            text: model.text.clone(),
+            state: binding.variables[1..]
+                .iter()
+                .map(|&s| g.symbol_text(s))
+                .collect(),
+        };
         let unknowns = unknowns(system, &prepared)?;
         Ok(Compiled {
             definitions: determined(system, (&prepared, &binding), &unknowns, defined),
@@ -77,6 +99,7 @@ impl Compiled {
             system: system.clone(),
             prepared,
             binding,
+            origin: Arc::new(origin),
             known: Default::default(),
         })
     }
@@ -216,9 +239,7 @@ impl Compiled {
     /// Names of the components of the state: coordinates, masses with a law of their own, velocities.
     #[getter]
     fn state(&self) -> Vec<String> {
-        let g = &self.system.graph;
-        let all = self.binding.variables[1..].iter();
-        all.map(|&s| g.symbol_text(s)).collect()
+        self.origin.state.clone()
     }
 
     /// Names of the constraints, one for each component of reactions and residuals.
@@ -235,7 +256,7 @@ impl Compiled {
         self.definitions.iter().map(|own| own.0.as_str()).collect()
     }
 
-    /// Names and values of the parameters.
+    /// Names and values of the free parameters.
     #[getter]
     fn parameters(&self) -> Vec<(String, f64)> {
         let g = &self.system.graph;
@@ -269,6 +290,8 @@ impl Compiled {
             parameters,
             ready: Mutex::new(vec![ready]),
             door: OnceLock::new(),
+            origin: self.origin.clone(),
+            what,
         };
         Ok(function)
     }
@@ -297,7 +320,12 @@ pub(crate) struct Function {
     ready: Mutex<Vec<Ready>>,
     /// How other programs call it, once one was asked for.
     door: OnceLock<Door>,
+    origin: Arc<Origin>,
+    what: usize,
 }
+
+/// What a function is made again from: a model, which function, its parameters.
+type Again = ((String, String, Pairs, Pairs), &'static str, Vec<f64>);
 
 /// So many states are computed one by one: a block takes the time of several.
 const FEW: usize = 4;
@@ -400,10 +428,8 @@ impl Function {
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let numpy = py.import("numpy")?;
-        let doubles = PyDict::new(py);
-        doubles.set_item("dtype", "f8")?;
-        let y = numpy.call_method("asarray", (array(&numpy, y)?,), Some(&doubles))?;
-        let t = numpy.call_method("asarray", (t,), Some(&doubles))?;
+        let y = doubles(&numpy, "y", &array(&numpy, y)?)?;
+        let t = doubles(&numpy, "t", t)?;
         let mut shape: Vec<usize> = y.getattr("shape")?.extract()?;
         let last = shape.pop();
         if last != Some(self.program.width) {
@@ -453,11 +479,55 @@ impl Function {
         if out.is_some() && self.program.places.len() < self.program.size() {
             values.fill(0.0);
         }
-        let (t, y) = (t.as_array(), y.as_array());
-        let done = py.detach(|| self.many(t, y, values));
-        done.map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        let (t, y, size) = (t.as_array(), y.as_array(), self.program.size().max(1));
+        // Signals are heard between pieces, each of which takes a moment.
+        let piece = (PIECE / size).next_multiple_of(LANES);
+        for (number, values) in values.chunks_mut(piece * size).enumerate() {
+            let (first, last) = (number * piece, (number * piece + piece).min(count));
+            let y = y.slice_axis(Axis(0), Slice::from(first..last));
+            let t = match t.len() {
+                1 => t,
+                _ => t.slice_axis(Axis(0), Slice::from(first..last)),
+            };
+            let done = py.detach(|| self.many(t, y, values));
+            done.map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+            py.check_signals()?;
+        }
         Ok(out.cloned().unwrap_or_else(|| target.into_any()))
     }
+}
+
+/// So many values are computed before signals are looked at.
+const PIECE: usize = 1 << 20;
+
+/// An array of doubles in its place, copied where it has other numbers or does not lie as doubles do. What has more than real numbers is
+/// refused: nothing of it is dropped.
+fn doubles<'py>(
+    numpy: &Bound<'py, PyModule>,
+    name: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let masked = numpy.getattr("ma")?.call_method1("is_masked", (value,))?;
+    if masked.is_truthy()? {
+        return Err(PyTypeError::new_err(format!(
+            "{name} is a masked array: there is no value where it is masked; fill or compress it first"
+        )));
+    }
+    let given = numpy.call_method1("asarray", (value,))?;
+    if given.getattr("dtype")?.getattr("kind")?.eq("c")? {
+        return Err(PyTypeError::new_err(format!(
+            "{name} is complex, and states are real: derivatives by the state are exact in `jac`, and need no complex step"
+        )));
+    }
+    numpy.call_method1("require", (given, "f8", "A"))
+}
+
+/// Whether an array is one of NumPy itself, no subclass, and its doubles lie where doubles may lie.
+fn is_plain(y: &Bound<'_, PyArray1<f64>>) -> bool {
+    let word = size_of::<f64>();
+    y.get_type().is(PyUntypedArray::type_object(y.py()))
+        && (y.data() as usize).is_multiple_of(word)
+        && y.strides().iter().all(|own| own % word as isize == 0)
 }
 
 /// What is no array of NumPy and offers its memory by DLPack, as an array of the same memory.
@@ -485,6 +555,7 @@ impl Function {
         let single = y.cast::<PyArray1<f64>>().ok();
         let single =
             single.filter(|y| y.len() == self.program.width && self.program.shape.len() == 1);
+        let single = single.filter(|y| is_plain(y));
         let (Some(single), Ok(time)) = (single, t.extract::<f64>()) else {
             return Ok(self.general(py, (t, y), out)?.unbind());
         };
@@ -536,6 +607,23 @@ impl Function {
         let arguments = (py.None(), double, &pointer, &pointer, &pointer);
         let signature = ctypes.call_method1("CFUNCTYPE", arguments)?;
         signature.call1((self.address(),))
+    }
+
+    fn __repr__(&self) -> String {
+        let shape: Vec<String> = self.program.shape.iter().map(usize::to_string).collect();
+        format!(
+            "<f(t, y, out=None): {} of shape (…, {}), y = ({})>",
+            WHAT[self.what],
+            shape.join(", "),
+            self.origin.state.join(", ")
+        )
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Again)> {
+        let own = self.origin.text.clone();
+        let again = py.import("chetaev.compiled")?.getattr("function")?;
+        let text = (own.path, own.text, own.includes, own.overrides);
+        Ok((again, (text, WHAT[self.what], self.parameters.clone())))
     }
 
     /// Whether machine code runs.

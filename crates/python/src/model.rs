@@ -6,12 +6,16 @@ use crate::outcome::Outcome;
 use crate::sweep::{Sweep, Varied};
 use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
-use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
+use chetaev::mechanics::{
+    formulation, Context, Formulation, Prepared, Prover, System, FORMULATIONS,
+};
 use chetaev::model::model::{ModelText, Precision};
 use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
 use chetaev::orbits::variational::Order;
 use chetaev::study::board;
+use chetaev::study::free::following;
+use chetaev::study::start::start_state;
 use chetaev::study::steady::steady;
 use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
@@ -307,7 +311,10 @@ impl Model {
         let read: Result<Vec<_>, _> = texts.iter().map(read).collect();
         let read = read.map_err(|found| problem::of_model(py, &found))?;
         let g = &self.model.graph;
-        let moving = |symbol| self.model.varies(g.symbol_name(symbol));
+        let moving = |symbol| {
+            let name = g.symbol_name(symbol);
+            self.model.varies(name) || self.model.mass_rate(name).is_some()
+        };
         let moving: Vec<String> = g
             .symbols_in(&read)
             .into_iter()
@@ -355,7 +362,7 @@ impl Model {
                     show(&format!("deriving and simplifying {}", one.card().name));
                 }
             };
-            written::equations(cx, &asked, (notation, all), &mut told)
+            written::equations(&self.model, cx, &asked, (notation, all), &mut told)
         })
     }
 
@@ -661,14 +668,48 @@ impl Model {
         }
     }
 
+    /// The time and the consistent state from which the motion starts: coordinates, masses with a law of their own, velocities.
+    fn start(&self, py: Python<'_>) -> PyResult<(f64, Vec<f64>)> {
+        let system = self.system(py)?;
+        let found = waiting::done(py, None, |hooks| {
+            interruptible(hooks, |_| {
+                let prepared = Prepared::new(&system).map_err(StudyError::from)?;
+                start_state(&self.model, &system, (&prepared.terms, &prepared.selection))
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok((found.t, found.state.iter().map(|own| own.1).collect())),
+            Ok(Err(problem)) => Err(problem::of_study(py, &problem, self.place())),
+        }
+    }
+
+    /// Parameters that follow from others, each with what it is in terms of free ones.
+    #[getter]
+    fn following(&self) -> Vec<(String, String)> {
+        let g = &self.model.graph;
+        let all = following(&self.model).into_iter();
+        all.map(|(own, value)| (g.text(own), g.text(value)))
+            .collect()
+    }
+
+    /// Initial values as they are stated: name, value, whether it is a guess.
+    #[getter]
+    fn initial(&self) -> Vec<(String, String, bool)> {
+        let name = |&(at, order): &(usize, u32)| {
+            let primes = "'".repeat(order as usize);
+            format!("{}{primes}", self.model.coordinates[at].name)
+        };
+        let all = self.model.initial.values.iter();
+        all.map(|(at, own)| (name(at), own.text.clone(), own.is_guess))
+            .collect()
+    }
+
     /// The equations of motion as functions of numbers.
     fn compile(&self, py: Python<'_>) -> PyResult<Compiled> {
         let system = self.system(py)?;
-        let model = &self.model;
-        let defined = model.defines.iter().chain(&model.sensors);
-        let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
         let found = waiting::done(py, None, |hooks| {
-            interruptible(hooks, |_| Compiled::new(&system, defined))
+            interruptible(hooks, |_| Compiled::new(&self.model, &system))
         })?;
         match found.result {
             Err(_) => Err(PyKeyboardInterrupt::new_err(())),

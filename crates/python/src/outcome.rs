@@ -1,10 +1,12 @@
 //! A study with its motion.
 
+use crate::waiting;
 use chetaev::study::picture::{self, Scene, View};
 use chetaev::study::table::Table;
-use chetaev::study::{page, record, story, summary, Study};
+use chetaev::study::{interruptible, page, record, story, summary, Hooks, Study};
+use chetaev::symbolic::meter::spend;
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 /// Claims with their verdicts, and the motion.
@@ -75,8 +77,8 @@ impl Outcome {
     }
 
     /// The report, one HTML page.
-    fn page(&self, py: Python<'_>, files: Vec<String>) -> String {
-        py.detach(|| page::page(&self.study, None, &files))
+    fn page(&self, py: Python<'_>, files: Vec<String>) -> PyResult<String> {
+        interruptibly(py, None, |_| page::page(&self.study, None, &files))
     }
 
     /// Names of the columns, and the columns as the rows of one array.
@@ -137,7 +139,14 @@ impl Outcome {
     }
 
     /// The moving picture as a GIF of so many seconds.
-    fn film(&self, py: Python<'_>, seconds: Option<f64>, size: (u32, u32)) -> PyResult<Vec<u8>> {
+    #[pyo3(signature = (seconds, size, tell=None))]
+    fn film(
+        &self,
+        py: Python<'_>,
+        seconds: Option<f64>,
+        size: (u32, u32),
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<u8>> {
         let scene = self.drawn()?;
         let view = View {
             width: size.0,
@@ -148,7 +157,13 @@ impl Outcome {
             (Some(first), Some(last)) => (last - first).abs().clamp(2.0, 20.0),
             _ => 2.0,
         };
-        let drawn = py.detach(|| picture::gif(&scene, &view, seconds.unwrap_or(length)));
+        let seconds = seconds.unwrap_or(length);
+        let drawn = interruptibly(py, tell, |hooks| {
+            picture::film(&scene, &view, seconds, &mut |part| {
+                (hooks.progress)("drawing", Some(part));
+                spend(UNITS_OF_A_FRAME);
+            })
+        })?;
         drawn.map_err(|problem| PyValueError::new_err(problem.to_string()))
     }
 
@@ -157,6 +172,19 @@ impl Outcome {
         let motion = self.study.motion.as_ref()?;
         Table::events(&self.study, motion)
     }
+}
+
+/// A frame counts as a moment, after which it is looked whether somebody interrupted.
+const UNITS_OF_A_FRAME: u64 = 1_000_000;
+
+/// Does what only an interruption ends.
+fn interruptibly<T: Send>(
+    py: Python<'_>,
+    tell: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&mut Hooks<'_>) -> T + Send,
+) -> PyResult<T> {
+    let found = waiting::done(py, tell, |hooks| interruptible(hooks, work))?;
+    found.result.map_err(|_| PyKeyboardInterrupt::new_err(()))
 }
 
 impl Outcome {

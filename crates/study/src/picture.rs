@@ -5,7 +5,7 @@
 
 pub use crate::page::scene;
 pub use chetaev_report::data::Animation as Scene;
-pub use chetaev_report::picture::{gif, png, svg, PictureError, View};
+pub use chetaev_report::picture::{film, gif, png, svg, PictureError, View};
 
 use serde::{Deserialize, Serialize};
 

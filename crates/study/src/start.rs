@@ -6,7 +6,7 @@ use crate::precise;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Direction;
 use chetaev_mechanics::system::{Assumption, Relation};
-use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
+use chetaev_mechanics::{Basis, MotionTerms, Selection, System};
 use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
@@ -81,6 +81,68 @@ fn is_regular_elsewhere(numeric: &mut NumericSystem, data: &InitialData) -> bool
         ..data.clone()
     };
     consistent_state(numeric, &elsewhere).is_ok()
+}
+
+/// The consistent state from which the motion of a model starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartState {
+    /// The time.
+    pub t: f64,
+    /// Coordinates, masses with a law of their own, velocities, in this order.
+    pub state: Vec<(Symbol, f64)>,
+    /// What the state has beside these where constraints are of order two and more: accelerations, multipliers.
+    pub beyond: Vec<(Symbol, f64)>,
+}
+
+/// The state from which `simulate` starts a motion: what the model gives, with the rest from the constraints. Controls without a law do not
+/// matter for it where no constraint contains them.
+///
+/// # Errors
+/// [`StudyError`] where something has no value, or no state satisfies the constraints.
+pub fn start_state(
+    model: &Model,
+    system: &System,
+    chosen: (&MotionTerms, &Selection),
+) -> Result<StartState, StudyError> {
+    let mut own = system.clone();
+    let g = &system.graph;
+    let constrained = g.symbols_in(&chosen.0.constraints);
+    let acts = |name: &str| constrained.iter().any(|&s| g.symbol_name(s) == name);
+    let open = own.controls.iter_mut().filter(|u| u.law.is_none());
+    for control in open.filter(|u| !acts(&u.name)) {
+        control.law = Some(g.zero());
+    }
+    if system.parameters.iter().any(|p| p.value.is_none())
+        || own.controls.iter().any(|u| u.law.is_none())
+    {
+        let names = open_names(&own);
+        return Err(StudyError::MissingValues { names });
+    }
+    let options = StudyOptions::default();
+    let binding = Binding::new(&own)?;
+    let mut numeric = NumericSystem::new(&own, chosen.0, &binding)?;
+    let data = initial_data(model, &own, &options)?;
+    let start = consistent_state(&mut numeric, &data)?;
+    let mut found = Start {
+        binding,
+        numeric,
+        start,
+        data,
+    };
+    if chosen.0.order > 1 {
+        add_jets(model, &own, chosen, &mut found, &options)?;
+    }
+    let at = found.start;
+    let values = at.q.iter().chain(&at.v).copied();
+    Ok(StartState {
+        t: at.t,
+        state: found.binding.variables[1..]
+            .iter()
+            .copied()
+            .zip(values)
+            .collect(),
+        beyond: at.jets.map(|jets| jets.values).unwrap_or_default(),
+    })
 }
 
 /// Initial data or a time span say that a motion is wanted.
@@ -232,7 +294,7 @@ pub(crate) fn initial_data(
 pub(crate) fn add_jets(
     model: &Model,
     system: &System,
-    prepared: &Prepared,
+    (terms, selection): (&MotionTerms, &Selection),
     start: &mut Start,
     options: &StudyOptions,
 ) -> Result<(), StudyError> {
@@ -258,8 +320,8 @@ pub(crate) fn add_jets(
     }
     let basis = Basis {
         system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
+        terms,
+        selection,
         characteristics: None,
     };
     let at = &start.start;

@@ -184,7 +184,13 @@ pub(crate) fn prepare(
     prepared.left_out(&system)?;
     let mut start = start;
     if let (Ok(found), true) = (&mut start, prepared.terms.order > 1) {
-        match add_jets(model, &system, &prepared, found, options) {
+        match add_jets(
+            model,
+            &system,
+            (&prepared.terms, &prepared.selection),
+            found,
+            options,
+        ) {
             Err(StudyError::Jets(problem)) => {
                 let problem = match undetermined(&system, &prepared) {
                     Some(detail) => StudyError::Undetermined { detail },

@@ -5,11 +5,14 @@ mod code;
 mod comparison;
 mod count;
 pub(crate) mod latex;
+mod numbers;
 mod printed;
 
 use crate::derivation::{derivation, Derivation, NotDerived, Readings};
+use crate::written::numbers::Numbers;
 use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{choice, Context, Formulation, Prepared, System};
+use chetaev_model::Model;
 use chetaev_symbolic::print::{CodeError, Format};
 
 /// How equations are written.
@@ -139,11 +142,12 @@ pub type Told<'a> = &'a mut dyn FnMut(&'static dyn Formulation, Option<&Tried>);
 /// A formulation derived, or why it is not.
 pub type Tried = Result<Derivation, NotDerived>;
 
-/// The equations of several formulations, one after the other; `told` hears of each before and after, with what it gave.
+/// The equations of several formulations of the system of a model, one after the other; `told` hears of each before and after, with what it gave.
 ///
 /// # Errors
 /// [`NotWritten`]; with `all` formulations one that does not apply is an answer.
 pub fn equations(
+    model: &Model,
     cx: &Context<'_>,
     asked: &[&'static dyn Formulation],
     (notation, all): (Notation, bool),
@@ -161,9 +165,9 @@ pub fn equations(
         }
     }
     if notation.is_of_arrays() {
-        arrays::source(cx.system, &found, notation)
+        arrays::source(&Numbers::of(model, cx), &found, notation)
     } else if notation.is_code() {
-        code::source(cx.system, &found, notation)
+        code::source(&Numbers::of(model, cx), &found, notation)
     } else {
         Ok(printed::text(cx, &found, notation))
     }

@@ -105,6 +105,7 @@ pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<Str
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(&system, terms, selection, &known, Prover::default());
             Ok::<_, Refusal>(written::equations(
+                &model,
                 &cx,
                 &asked,
                 (notation, false),

@@ -6,6 +6,7 @@ use crate::progress::ProgressLine;
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::mechanics::card::Relation;
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
+use chetaev::model::Model;
 use chetaev::study::board;
 use chetaev::study::derivation::claim_of;
 use chetaev::study::registry;
@@ -70,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
         _ => {
             let names = asked(arguments, &system);
-            with_progress(|line| all(&cx, &names, arguments, line))
+            with_progress(|line| all((&read.model, &cx), &names, arguments, line))
         }
     };
     match written {
@@ -103,7 +104,7 @@ fn asked(arguments: &Arguments, system: &System) -> Vec<&'static dyn Formulation
 
 /// Everything that is printed.
 fn all(
-    cx: &Context<'_>,
+    (model, cx): (&Model, &Context<'_>),
     asked: &[&'static dyn Formulation],
     arguments: &Arguments,
     line: &ProgressLine,
@@ -126,7 +127,7 @@ fn all(
         }
     };
     let notation = Notation::from(arguments.notation);
-    equations(cx, asked, (notation, arguments.all), &mut told)
+    equations(model, cx, asked, (notation, arguments.all), &mut told)
 }
 
 /// Says on standard error how long it took to derive the equations and to decide what is claimed of them.

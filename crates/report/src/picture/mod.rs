@@ -103,6 +103,19 @@ pub fn png(scene: &Animation, view: &View) -> Result<Vec<u8>, PictureError> {
 /// # Errors
 /// [`PictureError`].
 pub fn gif(scene: &Animation, view: &View, seconds: f64) -> Result<Vec<u8>, PictureError> {
+    film(scene, view, seconds, &mut |_| {})
+}
+
+/// The same; `tell` hears before each frame which part of the film is drawn, in [0, 1].
+///
+/// # Errors
+/// [`PictureError`].
+pub fn film(
+    scene: &Animation,
+    view: &View,
+    seconds: f64,
+    tell: &mut dyn FnMut(f64),
+) -> Result<Vec<u8>, PictureError> {
     check(scene, view)?;
     let (Some(first), Some(last)) = (scene.times.first(), scene.times.last()) else {
         return Err(PictureError::Empty);
@@ -111,6 +124,7 @@ pub fn gif(scene: &Animation, view: &View, seconds: f64) -> Result<Vec<u8>, Pict
     let count = ((seconds * raster::RATE).round() as usize).clamp(2, 1500);
     let frames = (0..count).map(|frame| {
         let part = frame as f64 / (count - 1) as f64;
+        tell(part);
         let view = View {
             time: Some(first + (last - first) * part),
             ..*view

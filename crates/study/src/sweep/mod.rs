@@ -4,7 +4,7 @@
 //! the bits of a run by itself, with the same values written in the model.
 
 mod members;
-mod recipe;
+pub(crate) mod recipe;
 pub mod together;
 pub mod vary;
 mod whole;

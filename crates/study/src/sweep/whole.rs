@@ -55,7 +55,10 @@ impl Whole<'_> {
         let mut start = start.map_err(|why| StudyError::NoMotion { why })?;
         match prepared.terms.order {
             1 => check_rank(&start, prepared.selection.rows.len())?,
-            _ => add_jets(&model, &system, prepared, &mut start, options)?,
+            _ => {
+                let chosen = (&prepared.terms, &prepared.selection);
+                add_jets(&model, &system, chosen, &mut start, options)?;
+            }
         }
         let mut settings = settings(&model, &system, start.start.t, options)?;
         settings.times = times(start.start.t, settings.t_end, sweep.options.samples);

@@ -1,5 +1,6 @@
 //! Equations as functions in C and Rust.
 
+use super::numbers::Numbers;
 use super::{NotWritten, Notation};
 use crate::derivation::{Derivation, NotDerived};
 use chetaev_mechanics::System;
@@ -8,7 +9,7 @@ use chetaev_symbolic::{Expr, Symbol};
 
 /// For each formulation the rates of its state, its state from coordinates and velocities, and its multipliers.
 pub(super) fn source(
-    system: &System,
+    numbers: &Numbers<'_>,
     found: &[Result<Derivation, NotDerived>],
     notation: Notation,
 ) -> Result<String, NotWritten> {
@@ -22,10 +23,11 @@ pub(super) fn source(
         .map(|d| d.card.name.replace('-', "_"))
         .map(|name| ["rates", "state", "multipliers"].map(|what| format!("{name}_{what}")))
         .collect();
-    let context = Inputs::new(system);
+    let system = numbers.system;
+    let context = Inputs::new(numbers);
     let mut functions = Vec::new();
     for (derivation, names) in found.iter().flatten().zip(&names) {
-        functions.extend(context.functions(system, derivation, names));
+        functions.extend(context.functions(numbers, derivation, names));
     }
     let title = [format!("Equations of motion of {}.", system.name)];
     source_code(&system.graph, &title, &functions, language).map_err(NotWritten::Code)
@@ -41,38 +43,21 @@ struct Inputs {
     parameters: Vec<Symbol>,
     /// Controls without a law, with their derivatives up to the second.
     controls: Vec<Symbol>,
-    /// Laws of the others.
+    /// Laws of the others, and what parameters that follow from others are.
     laws: Vec<(Expr, Expr)>,
 }
 
 impl Inputs {
-    fn new(system: &System) -> Inputs {
-        let g = &system.graph;
-        let mut controls = Vec::new();
-        let mut laws = Vec::new();
-        for control in &system.controls {
-            for order in 0..=2 {
-                match control.law {
-                    None => controls.push(g.intern_symbol(&control.name, order)),
-                    Some(law) => {
-                        let rate = (0..order).fold(law, |e, _| g.total_derivative(e, &|_| false));
-                        laws.push((g.symbol(&control.name, order), rate));
-                    }
-                }
-            }
-        }
+    fn new(numbers: &Numbers<'_>) -> Inputs {
+        let (system, g) = (numbers.system, &numbers.system.graph);
         Inputs {
             time: g.intern_symbol("t", 0),
             coordinates: system.coordinate_symbols(),
             masses: system.masses.iter().map(|m| m.symbol).collect(),
             velocities: system.velocity_symbols(),
-            parameters: system
-                .parameters
-                .iter()
-                .map(|p| g.intern_symbol(&p.name, 0))
-                .collect(),
-            controls,
-            laws,
+            parameters: numbers.parameters.clone(),
+            controls: numbers.controls(),
+            laws: numbers.laws(),
         }
     }
 
@@ -98,12 +83,45 @@ impl Inputs {
         entries.filter_map(line).collect()
     }
 
+    /// Where the motion of the model starts, and the values of its parameters.
+    fn start(&self, numbers: &Numbers<'_>, derivation: &Derivation) -> Vec<String> {
+        let written = |name: &str, values: Vec<Option<f64>>| {
+            let number = |x: &Option<f64>| x.map_or("?".to_owned(), |x| format!("{x:?}"));
+            let all: Vec<String> = values.iter().map(number).collect();
+            let line = format!("{name} = ({})", all.join(", "));
+            (!all.is_empty()).then_some(line)
+        };
+        let values = |own: &[Symbol]| own.iter().map(|&s| numbers.value(s)).collect();
+        let arrays = [
+            ("q", values(&self.coordinates)),
+            ("z", numbers.variables(derivation)),
+            ("m", values(&self.masses)),
+            ("p", values(&self.parameters)),
+        ];
+        let lines = arrays
+            .into_iter()
+            .filter_map(|(name, own)| written(name, own));
+        let lines: Vec<String> = lines.collect();
+        let said = match &numbers.no_start {
+            None => String::new(),
+            Some(why) => format!(
+                " (no state is known: {})",
+                why.replace("*/", "* /").replace('\n', " ")
+            ),
+        };
+        vec![format!(
+            "In the model, at the start{said}: {}",
+            lines.join(", ")
+        )]
+    }
+
     fn functions<'a>(
         &self,
-        system: &System,
+        numbers: &Numbers<'_>,
         derivation: &Derivation,
         names: &'a [String; 3],
     ) -> Vec<CodeFunction<'a>> {
+        let system = numbers.system;
         let equations = &derivation.equations;
         let g = &system.graph;
         let lawful = |es: Vec<Expr>| g.substitute_all(&es, &self.laws);
@@ -131,6 +149,9 @@ impl Inputs {
                 listed(&self.controls)
             ));
         }
+        let rates = [equations.velocities.clone(), equations.rates()].concat();
+        arrays.extend(numbers.said_to_follow(&rates));
+        let start = self.start(numbers, derivation);
         let about = |what: &str, results: &[&str]| -> Vec<String> {
             let mut lines = vec![format!("{}: {what}", derivation.card.title)];
             lines.extend(arrays.iter().cloned());
@@ -178,6 +199,7 @@ impl Inputs {
             inputs(("z", state.clone())),
             rates,
         )];
+        functions[0].documentation.extend(start);
         let definitions: Option<Vec<Expr>> =
             equations.variables.iter().map(|x| x.definition).collect();
         if let Some(definitions) = definitions {
