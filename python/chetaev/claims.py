@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import subprocess
@@ -34,7 +35,7 @@ def verify(
     Parameters
     ----------
     record : path, Study or dict
-        A ``study.json``, a study, or what its ``to_dict()`` gave.
+        A ``study.json``, whose files beside it are held against their checksums; a study, or what its ``to_dict()`` gave.
     budget : float
         Work allowed for each of the two replays, in seconds of a usual machine.
     independent : bool
@@ -53,8 +54,39 @@ def verify(
     else:
         with open(record, encoding="utf-8-sig") as file:
             text = file.read()
-    data, agrees = _examined(text) if independent else native.verify(text, budget)
-    return Verification(json.loads(data), agrees)
+    if independent:
+        said, agrees = _examined(text)
+        return Verification(json.loads(said), agrees)
+    said, agrees = native.verify(text, budget)
+    lines = json.loads(said)
+    if isinstance(record, (str, os.PathLike)):
+        beside = _beside(json.loads(text)["files"], os.path.dirname(os.fspath(record)))
+        lines += beside
+        agrees = agrees and all(own["result"] != "DISAGREES" for own in beside)
+    return Verification(lines, agrees)
+
+
+def _beside(files: list[dict[str, str]], folder: str) -> list[dict[str, str]]:
+    """Whether the files beside a record are those that were written with it."""
+
+    def said(name: str, digest: str) -> tuple[str, str]:
+        # A record may come from anybody; it names files beside itself only.
+        if os.path.basename(name) != name or name in ("", ".", ".."):
+            return "DISAGREES", "replay finds no file name: files of a record lie beside it"
+        try:
+            with open(os.path.join(folder, name), "rb") as file:
+                found = hashlib.sha256(file.read()).hexdigest()
+        except OSError:
+            return "remark", "it is not beside the record, or cannot be read"
+        if found == digest:
+            return "confirmed", ""
+        return "DISAGREES", f"replay finds {found}: the content is not what was written with this record"
+
+    lines = []
+    for own in files:
+        result, detail = said(own["name"], own["sha256"])
+        lines.append({"claim": own["name"], "recorded": "sha256", "result": result, "detail": detail})
+    return lines
 
 
 def _examined(record: str) -> tuple[str, bool]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import functools
 from typing import TYPE_CHECKING, Any
+
+from . import chetaev_native as native
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,64 +25,96 @@ class Compiled:
     Attributes
     ----------
     rhs : f(t, y, out=None)
-        The rates of the state, shape (…, n): ``scipy.integrate.solve_ivp(f.rhs, (0, 10), y0, jac=f.jac)``.
-    jac : f(t, y, out=None)
-        Their derivatives by the state, exact, shape (…, n, n).
-    mass_matrix : f(t, y, out=None)
-        ∂²L/∂v∂v, shape (…, coordinates, coordinates).
-    reactions : f(t, y, out=None)
-        The multipliers of the constraints, in the order of ``constraints``; zero for redundant ones.
-    residuals : f(t, y, out=None)
-        What the constraints leave, in the same order.
-    definitions : f(t, y, out=None)
-        What the model defines by names, and its sensors, in the order of ``names``.
+        The rates of the state, shape (…, n): ``scipy.integrate.solve_ivp(f.rhs, (0, 10), f.start, jac=f.jac)``.
+    system : System
+        The system, with the values that the functions have.
+    state : list of str
+        Names of the n components of y.
+    parameters : dict from str to float
+        The free parameters with their values, in SI units where the model states units; those that follow from them are computed from them.
+    constraints : list of str
+        Names of the constraints, for ``reactions`` and ``residuals``.
+    names : list of str
+        What ``definitions`` computes.
 
     Notes
     -----
     Arrays of other libraries are taken where they lie, if they offer DLPack on the CPU. Each function has an ``address`` for callers that know
     C only: ``void f(double t, double *y, double *values, double *data)``, the signature of Numba's and numbalsoda's right-hand sides. The last argument
     is the function's array ``data``: it says which function is meant, and has the parameters after that, which may be changed.
-    SciPy's ``LowLevelCallable`` serves quadratures alone; ``solve_ivp`` takes ``f.rhs`` itself.
+    SciPy's ``LowLevelCallable`` serves quadratures alone; ``solve_ivp`` takes ``f.rhs`` itself. Many states are rows here: ``solve_ivp`` with
+    ``vectorized=True`` has them as columns, and takes ``lambda t, y: f.rhs(t, y.T).T``.
+
+    Examples
+    --------
+    >>> from scipy.integrate import solve_ivp
+    >>> import chetaev
+    >>> f = chetaev.System.from_gallery("chaplygin-sleigh").compile()
+    >>> solve_ivp(f.rhs, (f.t_start, 10), f.start, method="Radau", jac=f.jac).success
+    True
     """
 
-    def __init__(self, system: System, values: Mapping[str, float]) -> None:
+    def __init__(self, system: System) -> None:
         self.system = system
         self._native = system._native.compile()
-        self._values = dict(values)
-        known = self._native.parameters
-        unknown = [name for name in values if name not in dict(known)]
-        if unknown:
-            raise ValueError(f"`{unknown[0]}` is no parameter; there are {', '.join(name for name, _ in known)}")
-        self.parameters: dict[str, float] = {name: float(values.get(name, own)) for name, own in known}
+        self.parameters: dict[str, float] = dict(self._native.parameters)
         self.state: list[str] = self._native.state
         self.constraints: list[str] = self._native.constraints
         self.names: list[str] = self._native.definitions
         self._known: dict[str, Function] = {}
-        self.rhs = self._function("rates")
+        # An attribute, and no property: it is asked for before each call.
+        self.rhs: Function = self._function("rates")
+
+    @functools.cached_property
+    def _start(self) -> tuple[float, list[float]]:
+        return self.system._native.start()
+
+    @property
+    def start(self) -> NDArray[np.float64]:
+        """The state from which ``simulate`` starts, shape (n,): what the model gives, and the rest from the constraints.
+
+        Raises
+        ------
+        ModelError
+            Where no state satisfies the constraints.
+        """
+        import numpy as np
+
+        return np.array(self._start[1], dtype=np.float64)
+
+    @property
+    def t_start(self) -> float:
+        """The time at which the motion starts."""
+        return self._start[0]
 
     def _function(self, what: str) -> Function:
         if what not in self._known:
-            self._known[what] = self._native.function(what, list(self.parameters.values()))
+            self._known[what] = self._native.function(what)
         return self._known[what]
 
     @property
     def jac(self) -> Function:
+        """f(t, y, out=None): derivatives of the rates by the state, exact, shape (…, n, n); ``[..., i, j]`` is that of rate i by component j."""
         return self._function("jacobian")
 
     @property
     def mass_matrix(self) -> Function:
+        """f(t, y, out=None): ∂²L/∂v∂v, shape (…, coordinates, coordinates)."""
         return self._function("mass")
 
     @property
     def reactions(self) -> Function:
+        """f(t, y, out=None): the multipliers, shape (…, constraints), in the order of ``constraints``; zero for redundant ones."""
         return self._function("reactions")
 
     @property
     def residuals(self) -> Function:
+        """f(t, y, out=None): what the constraints leave, shape (…, constraints), in the order of ``constraints``; zero at admissible states."""
         return self._function("residuals")
 
     @property
     def definitions(self) -> Function:
+        """f(t, y, out=None): what the model defines by names, and its sensors, shape (…, names), in the order of ``names``."""
         return self._function("definitions")
 
     @property
@@ -93,11 +127,12 @@ class Compiled:
         return self.rhs(t, y, out)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self.system, self._values)
+        return Compiled, (self.system,)
 
     def __repr__(self) -> str:
         return f"<Compiled {self.system.name}: y = ({', '.join(self.state)})>"
 
 
-def _again(system: System, values: dict[str, float]) -> Compiled:
-    return Compiled(system, values)
+def function(text: tuple[str, str, Any, Any], what: str, parameters: list[float]) -> Function:
+    """A function again that was pickled: of a model, by its name, with the values of its parameters."""
+    return native.Model.from_texts(*text).compile().function(what, parameters)

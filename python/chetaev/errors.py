@@ -26,33 +26,45 @@ class ModelError(ChetaevError, ValueError):
     diagnostics : list of dict
         All problems, as ``chetaev check --json`` writes them.
     file, line, column, text, hint
-        Of the first error: name of the file, line and column from 1, the offending text, and the first advice or ``None``.
+        Of the first error: name of the file, line and column from 1, the offending text, and the first advice; ``None`` where there is none.
     """
 
     @property
     def _first(self) -> dict[str, Any]:
         errors = [own for own in self.diagnostics if own["severity"] == "error"]
-        return (errors or self.diagnostics)[0]
+        return (errors or self.diagnostics or [{}])[0]
+
+    def _at(self, what: str) -> Any:
+        return self._first.get("at", {}).get(what)
 
     @property
-    def file(self) -> str:
-        return str(self._first["at"]["file"])
+    def file(self) -> str | None:
+        """Name of the file."""
+        found: str | None = self._at("file")
+        return found
 
     @property
-    def line(self) -> int:
-        return int(self._first["at"]["line"])
+    def line(self) -> int | None:
+        """Line, from 1."""
+        found: int | None = self._at("line")
+        return found
 
     @property
-    def column(self) -> int:
-        return int(self._first["at"]["column"])
+    def column(self) -> int | None:
+        """Column, from 1."""
+        found: int | None = self._at("column")
+        return found
 
     @property
-    def text(self) -> str:
-        return str(self._first["at"]["text"])
+    def text(self) -> str | None:
+        """The offending text."""
+        found: str | None = self._at("text")
+        return found
 
     @property
     def hint(self) -> str | None:
-        hints = self._first["hints"]
+        """The first advice."""
+        hints = self._first.get("hints")
         return str(hints[0]) if hints else None
 
 

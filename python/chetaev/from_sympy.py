@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import random
 import re
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .texts import of_sympy
+from .errors import ModelWarning
+from .texts import known_functions, of_sympy
 
 #: Names that a model cannot declare.
 _RESERVED = set(
@@ -20,6 +22,43 @@ _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "θ": "theta", "λ": "lamda", "μ": "mu",
     "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "phi", "ψ": "psi", "ω": "omega",
 }
+
+
+class Origins:
+    """What the user's own objects are called in a model, and back.
+
+    Attributes
+    ----------
+    time : sympy.Symbol
+        The time of the statement.
+    objects : dict from str to symbol or function of the time
+        By the names of the model.
+    """
+
+    def __init__(self, time: Any, objects: Mapping[str, Any]) -> None:
+        self.time = time
+        self.objects = dict(objects)
+
+    def back(self, expression: Any) -> Any:
+        """An expression of the model's names with the user's own symbols, functions and time."""
+        found: dict[Any, Any] = {}
+        for own in expression.atoms(sp.Symbol):
+            if own.name == "t":
+                found[own] = self.time
+            elif own.name in self.objects:
+                found[own] = self.objects[own.name]
+        for own in expression.atoms(AppliedUndef):
+            if own.func.__name__ in self.objects:
+                found[own] = self.objects[own.func.__name__]
+        return expression.xreplace(found)
+
+    def text(self, expression: Any) -> str:
+        """An expression of the user's objects in the notation of the model."""
+        t = sp.Symbol("t")
+        rename: dict[Any, Any] = {self.time: t}
+        for name, own in self.objects.items():
+            rename[own] = sp.Function(name)(t) if isinstance(own, AppliedUndef) else sp.Symbol(name)
+        return of_sympy(known_functions(expression).xreplace(rename))
 
 
 class Statement:
@@ -33,14 +72,23 @@ class Statement:
         The coordinates.
     constraints : sequence of expressions that vanish, or equations; or a mapping from names to these
         Constraints on coordinates and their derivatives.
-    forces : mapping from coordinates to expressions
+    forces : mapping from coordinates, or their names, to expressions
         Generalized forces that are not in the Lagrangian.
-    parameters : mapping from symbols or names to values
+    parameters : mapping from symbols or names to values, or list of these
         Values of parameters; those without stay symbols.
-    controls : iterable of functions of the time
+    controls : iterable of functions of the time or names, or mapping from these to laws
         Arbitrary functions of the time that are no coordinates.
     definitions : mapping from functions of the time to expressions
         Names for what is long.
+
+    Attributes
+    ----------
+    sections : dict
+        What the file of the model has.
+    origins : Origins
+        What stands for what.
+    renamed : list of str
+        Sentences on names that a model cannot declare.
     """
 
     def __init__(
@@ -50,46 +98,62 @@ class Statement:
         *,
         constraints: Mapping[str, Any] | Iterable[Any] = (),
         forces: Mapping[Any, Any] | None = None,
-        parameters: Mapping[Any, Any] | None = None,
-        controls: Iterable[Any] = (),
+        parameters: Mapping[Any, Any] | Iterable[Any] | None = None,
+        controls: Mapping[Any, Any] | Iterable[Any] = (),
         definitions: Mapping[Any, Any] | None = None,
     ) -> None:
+        import sympy.physics.mechanics as me
+
+        if isinstance(lagrangian, (me.LagrangesMethod, me.KanesMethod)) or hasattr(lagrangian, "kdes"):
+            raise TypeError(f"coordinates: {type(lagrangian).__name__} states its own; they belong to a Lagrangian")
         listed = constraints if isinstance(constraints, Mapping) else {
             f"constraint_{number}": own for number, own in enumerate(constraints, 1)
         }
-        equations = {name: own if isinstance(own, sp.Equality) else sp.Eq(own, 0, evaluate=False) for name, own in listed.items()}
-        forces = dict(forces or {})
+        equations = {name: _equation(own) for name, own in listed.items()}
         self._coordinates = [sp.sympify(own) for own in coordinates]
-        for own in self._coordinates:
-            if not isinstance(own, AppliedUndef):
-                raise ValueError(f"{own} is no function of the time, and no coordinate: use dynamicsymbols")
-        values = {str(key): own for key, own in (parameters or {}).items()}
+        time = _time(self._coordinates)
+        forces = {_found(key, self._coordinates, "forces", "coordinate"): own for key, own in (forces or {}).items()}
         named = dict(definitions or {})
-        whole = [sp.sympify(own) for own in [lagrangian, *equations.values(), *forces.values(), *named.values()]]
-        clock = {own.args[0] for own in self._coordinates}
-        symbols = set().union(*(own.free_symbols for own in whole)) - clock
-        known = sorted(set(controls), key=str)
-        functions = _functions(whole) - set(self._coordinates) - set(named)
-        known = [own for own in known if own in functions]
-        for own in functions - set(known):
-            raise ValueError(f"{own} is neither a coordinate nor a parameter")
+        laws = dict(controls) if isinstance(controls, Mapping) else dict.fromkeys(controls)
+        lawful = [own for own in laws.values() if hasattr(own, "free_symbols")]
+        whole = [known_functions(own) for own in [lagrangian, *equations.values(), *forces.values(), *named.values(), *lawful]]
+        functions = sorted(_functions(whole) - set(self._coordinates) - set(named), key=str)
+        known = {own: laws[key] for own in functions for key in laws if key == own or str(key) == own.func.__name__}
+        for own in functions:
+            if own not in known:
+                raise ValueError(f"{own} is neither a coordinate nor a parameter; state it under `controls` where it is a given function of the time")
+        symbols = _apart(set().union(*(own.free_symbols for own in whole)) - {time}, time)
         moving = [*self._coordinates, *known, *named]
-        self.names = _names([own.func.__name__ for own in moving] + sorted(own.name for own in symbols))
-        self._rename = {own: sp.Function(self.names[own.func.__name__])(*own.args) for own in moving}
-        self._rename |= {own: sp.Symbol(self.names[own.name]) for own in symbols}
-        self.coordinates = [self.names[own.func.__name__] for own in self._coordinates]
+        names = _names([*((own, own.func.__name__) for own in moving), *((own, own.name) for own in symbols)])
+        self.renamed = [f"{own} is called `{name}` in the model" for own, name in names.items() if str(own).partition("(")[0] != name]
+        self.origins = Origins(time, {name: own for own, name in names.items()})
+        self.coordinates = [names[own] for own in self._coordinates]
+        values = _values(parameters, symbols)
         self.sections: dict[str, Any] = {
             "coordinates": self.coordinates,
-            "parameters": {
-                self.names[own.name]: values.get(own.name, {}) for own in sorted(symbols, key=lambda own: str(own.name))
-            },
-            "controls": {self.names[own.func.__name__]: {} for own in known},
-            "define": {self.names[key.func.__name__]: self.text(own) for key, own in named.items()},
+            "parameters": {names[own]: self._value(values.get(own, {})) for own in symbols},
+            "controls": {names[own]: self._value({} if law is None else law) for own, law in known.items()},
+            "define": {names[key]: self.text(own) for key, own in named.items()},
             "lagrangian": {"L": self.text(lagrangian)},
             "constraints": {name: self.text(own) for name, own in equations.items()},
-            "forces": {self.names[key.func.__name__]: self.text(own) for key, own in forces.items() if own != 0},
+            "forces": {names[key]: self._value(own) for key, own in forces.items() if own != 0},
         }
         self.sections = {key: own for key, own in self.sections.items() if own}
+
+    def _value(self, own: Any) -> Any:
+        return self.text(own) if hasattr(own, "free_symbols") else own
+
+    def in_names(self, sections: Mapping[str, Any]) -> dict[str, Any]:
+        """Sections whose keys and values may be SymPy's, in the names of the model."""
+
+        def plain(own: Any) -> Any:
+            if isinstance(own, Mapping):
+                return {key if isinstance(key, str) else self.text(key): plain(value) for key, value in own.items()}
+            if isinstance(own, (list, tuple)):
+                return [plain(value) for value in own]
+            return self._value(own)
+
+        return {key: plain(own) for key, own in sections.items()}
 
     def state(self, equations: Iterable[Any], unknowns: Sequence[Any] = ()) -> None:
         """States expressions that somebody says vanish along the motion, under the name ``sympy``."""
@@ -97,18 +161,60 @@ class Statement:
         renamed = {own: sp.Symbol(f"unknown_{number}") for number, own in enumerate(unknowns, 1)}
         texts = [f"{self.text(own.xreplace(renamed))} = 0" for own in wanted if own != 0]
         names = [own.name for own in renamed.values()]
-        self.sections["equations"] = {"sympy": {"unknowns": names, "equations": texts} if names else texts}
+        if texts:
+            self.sections["equations"] = {"sympy": {"unknowns": names, "equations": texts} if names else texts}
 
     def text(self, expression: Any) -> str:
         """An expression in the names of the model."""
-        return of_sympy(sp.sympify(expression).xreplace(self._rename))
+        return self.origins.text(expression)
 
 
-def _names(wanted: Iterable[str]) -> dict[str, str]:
+def _equation(own: Any) -> Any:
+    return own if isinstance(own, sp.Equality) else sp.Eq(sp.sympify(own), 0, evaluate=False)
+
+
+def _time(coordinates: Sequence[Any]) -> Any:
+    """The one symbol that all coordinates are functions of."""
+    for own in coordinates:
+        if not isinstance(own, AppliedUndef) or len(own.args) != 1:
+            raise ValueError(f"{own} is no function of the time, and no coordinate: use dynamicsymbols")
+    clocks = sorted({own.args[0] for own in coordinates}, key=sp.srepr)
+    if len(clocks) != 1 or not isinstance(clocks[0], sp.Symbol):
+        raise ValueError(f"coordinates are functions of one time, not of {', '.join(sp.srepr(own) for own in clocks) or 'nothing'}")
+    return clocks[0]
+
+
+def _apart(symbols: set[Any], time: Any) -> list[Any]:
+    """Symbols in the order of their names; two of one name are a mistake that SymPy does not see."""
+    ordered = sorted(symbols, key=lambda own: (str(own.name), sp.srepr(own)))
+    for one, other in zip([time, *ordered], ordered):
+        if one.name == other.name:
+            raise ValueError(f"there are two symbols of the name `{one.name}`, with different assumptions: {sp.srepr(one)} and {sp.srepr(other)}")
+    for own in ordered:
+        if own.name == time.name:
+            raise ValueError(f"there are two symbols of the name `{time.name}`: {sp.srepr(time)} is the time, and {sp.srepr(own)} is not")
+    return ordered
+
+
+def _found(key: Any, among: Sequence[Any], where: str, what: str) -> Any:
+    """One of several objects, by itself or by its name."""
+    for own in among:
+        if own == key or isinstance(key, str) and key in (str(own), getattr(own, "name", None) or own.func.__name__):
+            return own
+    raise ValueError(f"{where}: {key} is no {what}; there are {', '.join(map(str, among)) or 'none'}")
+
+
+def _values(given: Mapping[Any, Any] | Iterable[Any] | None, symbols: Sequence[Any]) -> dict[Any, Any]:
+    """Values of parameters by their symbols."""
+    listed = given if isinstance(given, Mapping) else {own: {} for own in given or ()}
+    return {_found(key, symbols, "parameters", "symbol of the statement"): own for key, own in listed.items()}
+
+
+def _names(wanted: Iterable[tuple[Any, str]]) -> dict[Any, str]:
     """Names that a model can declare, no two the same."""
     taken: set[str] = set()
-    found: dict[str, str] = {}
-    for name in wanted:
+    found: dict[Any, str] = {}
+    for key, name in wanted:
         plain = "".join(_GREEK.get(letter, letter) for letter in name)
         plain = re.sub(r"[^A-Za-z0-9_]+", "_", re.sub(r"[{}\\]", "", plain)).strip("_") or "x"
         if plain[0].isdigit() or plain in _RESERVED or plain.startswith(("lambda_", "kappa_")) or plain == "lambda":
@@ -117,7 +223,7 @@ def _names(wanted: Iterable[str]) -> dict[str, str]:
         while own in taken:
             own, number = f"{plain}_{number}", number + 1
         taken.add(own)
-        found[name] = own
+        found[key] = own
     return found
 
 
@@ -132,7 +238,7 @@ def of_bodies(
     holonomic: Iterable[Any] = (),
     velocity: Iterable[Any] = (),
     auxiliary: Iterable[Any] = (),
-    parameters: Mapping[Any, Any] | None = None,
+    parameters: Any = None,
     derived: Iterable[Any] = (),
 ) -> Statement:
     """A system of bodies and loads, with generalized speeds u and kinematical equations that vanish.
@@ -430,7 +536,7 @@ def _functions(expressions: Iterable[Any]) -> set[Any]:
     return set().union(*(sp.sympify(own).atoms(AppliedUndef) for own in expressions))
 
 
-def statement(what: Any, parameters: Mapping[Any, Any] | None = None, *, derived: bool = False) -> Statement:
+def statement(what: Any, parameters: Any = None, *, derived: bool = False) -> Statement:
     """What a ``KanesMethod``, a ``LagrangesMethod`` or a ``System`` of ``sympy.physics.mechanics`` states.
 
     With ``derived`` the equations are stated too that the object has derived.
@@ -441,6 +547,8 @@ def statement(what: Any, parameters: Mapping[Any, Any] | None = None, *, derived
     if is_lagrange:
         return _of_lagrange(what, parameters, derived)
     if is_kane:
+        if what.bodies is None or what.forcing is None:
+            raise ValueError("this KanesMethod has not formed its equations, and knows no bodies: call kanes_equations first")
         equations = list(what.mass_matrix * sp.Matrix([own.diff(own.args[0]) for own in what.u]) - what.forcing) if derived else []
         # As they were stated, and not solved for the rates.
         kinematics = what._k_kqdot_implicit * sp.Matrix(what._qdot) + what._k_ku_implicit * sp.Matrix(what.u) + what._f_k_implicit
@@ -453,26 +561,51 @@ def statement(what: Any, parameters: Mapping[Any, Any] | None = None, *, derived
         )
     if type(what).__name__ == "System" and hasattr(what, "kdes"):
         if derived:
+            if what.eom_method is None:
+                raise ValueError("derived: this System has not formed its equations: call form_eoms first")
+            if isinstance(what.eom_method, me.LagrangesMethod):
+                return _of_lagrange(what.eom_method, parameters, True, _speeds(what))
             return statement(what.eom_method, parameters, derived=True)
+        # Those that the user has put in the place of all, or those that are no derivatives of finite ones.
+        velocity = what.nonholonomic_constraints if what._vel_constrs is None else what.velocity_constraints
         loads = list(what.loads) + [own for actuator in what.actuators for own in actuator.to_loads()]
         return of_bodies(
             what.frame, list(what.q), list(what.u), list(what.kdes), list(what.bodies), loads,
-            holonomic=list(what.holonomic_constraints), velocity=list(what.nonholonomic_constraints), parameters=parameters,
+            holonomic=list(what.holonomic_constraints), velocity=list(velocity), auxiliary=list(what.u_aux), parameters=parameters,
         )
     raise TypeError(f"{type(what).__name__} states no system that is known here")
 
 
-def _of_lagrange(method: Any, parameters: Mapping[Any, Any] | None, derived: bool) -> Statement:
+def _speeds(system: Any) -> dict[Any, Any]:
+    """The generalized speeds of a System of SymPy by the rates of its coordinates."""
+    speeds = [own for own in system.u if own not in system.q]
+    matrix, right = sp.linear_eq_to_matrix(list(system.kdes), speeds)
+    return dict(zip(speeds, matrix.LUsolve(right), strict=True)) if speeds else {}
+
+
+def _of_lagrange(method: Any, parameters: Any, derived: bool, speeds: Mapping[Any, Any] | None = None) -> Statement:
+    """What a LagrangesMethod states; ``speeds`` are put in by the rates of the coordinates."""
     coordinates = list(method.q)
+    known = dict(speeds or {})
     forces: dict[Any, Any] = {own: sp.S.Zero for own in coordinates}
     frame = method.inertial
     for place, force in method.forcelist or []:
         moved = place.ang_vel_in(frame) if hasattr(place, "ang_vel_in") else place.vel(frame)
+        components = moved.to_matrix(frame).applyfunc(lambda own: _put(own, known))
+        applied = force.to_matrix(frame).applyfunc(lambda own: _put(own, known))
         for own in coordinates:
-            forces[own] += moved.diff(own.diff(), frame, var_in_dcm=False).dot(force)
-    lagrangian, constraints = sp.Matrix([method._L])[0], list(method.coneqs)
-    controls = _functions([lagrangian, *forces.values(), *constraints]) - set(coordinates)
+            forces[own] += sum((f * v.diff(own.diff()) for f, v in zip(applied, components, strict=True)), sp.S.Zero)
+    lagrangian = _put(sp.Matrix([method._L])[0], known)
+    constraints = [_put(own, known) for own in method.coneqs]
+    controls = sorted(_functions([lagrangian, *forces.values(), *constraints]) - set(coordinates), key=str)
+    for own in controls:
+        said = f"{own} is no coordinate of this LagrangesMethod, and is taken for a control, a given function of the time"
+        warnings.warn(said, ModelWarning, stacklevel=4)
     found = Statement(lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters, controls=controls)
     if derived:
-        found.state(list(method.eom), list(method.lam_vec))
+        equations = [sp.sympify(_put(own, known)) for own in method.eom]
+        if all(own == 0 for own in equations):
+            said = "SymPy has derived 0 = 0 from this Lagrangian, which stands in speeds and not in rates of coordinates: no equations are stated"
+            warnings.warn(said, ModelWarning, stacklevel=4)
+        found.state(equations, list(method.lam_vec))
     return found

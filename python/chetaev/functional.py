@@ -13,7 +13,7 @@ from . import chetaev_native as native
 from .claims import explain, verify
 from .errors import ModelWarning
 from .results import Check, Explanation, Json, Result, Verdict, Verification, part_of, write
-from .system import Value, _pairs, _Progress, of_gallery
+from .system import Value, _pairs, _Progress, of_gallery, readable
 
 
 class FieldEquation:
@@ -230,7 +230,10 @@ class Functional:
         ------
         ModelError
             With everything that is wrong, each at its place.
+        OSError
+            Where the file cannot be read, as :class:`FileNotFoundError`.
         """
+        readable(path)
         return cls._of(native.Functional.from_file(os.fspath(path), _pairs(set)))
 
     @classmethod

@@ -2,16 +2,36 @@
 
 from __future__ import annotations
 
+import builtins
 import json
 import os
+from collections.abc import Iterator
 from typing import Any
 
 from . import chetaev_native as native
 from .results import Result, write
 
+_list = builtins.list
+
 
 class Gallery(Result):
-    """Names, titles and files of models."""
+    """Names, titles and files of models; of all models it is a sequence of names."""
+
+    def _listed(self) -> _list[Any]:
+        return self._data if isinstance(self._data, _list) else [self._data]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names."""
+        return iter([str(own["name"]) for own in self._listed()])
+
+    def __len__(self) -> int:
+        return len(self._listed())
+
+    def __contains__(self, name: object) -> bool:
+        return any(own["name"] == name for own in self._listed())
+
+    def __getitem__(self, which: int) -> str:
+        return str(self._listed()[which]["name"])
 
 
 def list() -> Gallery:  # noqa: A001

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import functools
 import html
 import json
@@ -10,11 +11,14 @@ import os
 import re
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
+
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
     from .chetaev_native import Linear, Outcome
     from .system import System
@@ -173,7 +177,7 @@ def part_of(parts: list[Any], which: Any, name: Callable[[Any], str]) -> Any:
     for own in parts:
         if name(own) == which:
             return own
-    raise KeyError(which)
+    raise KeyError(f"there is no `{which}`; there are {', '.join(map(name, parts))}")
 
 
 class Derivation(Result, Sequence[Formulation]):
@@ -194,15 +198,32 @@ class Derivation(Result, Sequence[Formulation]):
         """By number, or by the name of the formulation."""
         return part_of(self.formulations, which, lambda own: own.name)
 
+    def __contains__(self, which: object) -> bool:
+        """Whether there is a formulation of this name, or this one."""
+        return which in self.formulations or which in [own.name for own in self.formulations]
+
     def to(self, notation: str) -> str:
-        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust or c."""
+        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust, c, python, matlab or julia."""
         return self._system._native.derive(*self._asked, notation)[0]
 
     def to_latex(self) -> str:
         return self.to("latex")
 
     def to_sympy(self) -> dict[str, dict[str, list[Any]]]:
-        """SymPy equations by formulation and heading, exact."""
+        """SymPy equations by formulation and heading, exact.
+
+        Coordinates are ``sympy.Function("x", real=True)(t)``, parameters ``sympy.Symbol("m", real=True)``; of a system that was stated in SymPy all
+        are the symbols, functions and time of the statement.
+        """
+        found = self._in_sympy()
+        own = self._system._own
+        if own is None:
+            return found
+        return {
+            name: {title: [own.back(one) for one in equations] for title, equations in groups.items()} for name, groups in found.items()
+        }
+
+    def _in_sympy(self) -> dict[str, dict[str, list[Any]]]:
         space: dict[str, Any] = {}
         exec(compile(self.to("sympy"), "<chetaev>", "exec"), space)
         names = [own.name for own in self.formulations if own.not_derived is None]
@@ -335,11 +356,13 @@ class Stability(Linearization):
 
     @property
     def critical(self) -> list[dict[str, Any]] | None:
+        """Values of the parameter at which stability changes, with enclosures; ``None`` without a range."""
         found: list[dict[str, Any]] | None = self.to_dict().get("critical")
         return found
 
     @property
     def regions(self) -> list[dict[str, Any]] | None:
+        """Intervals of the parameter with what holds in each; ``None`` without a range."""
         found: list[dict[str, Any]] | None = self.to_dict().get("regions")
         return found
 
@@ -387,12 +410,26 @@ class Verdict(Shown):
         return f"<table>{self._row()}</table>"
 
 
+class Columns(dict[str, "NDArray[np.float64]"]):
+    """Columns of one length by their names: a dict of arrays of shape (rows,)."""
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """The columns as lists of numbers."""
+        return {name: own.tolist() for name, own in self.items()}
+
+    def to_pandas(self) -> DataFrame:
+        """A ``pandas.DataFrame`` with the time as index."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(self)).set_index("t")
+
+
 class DenseOutput:
     """A motion at any time of its span, by polynomials of degree five between the rows.
 
     They have the coordinates, velocities and accelerations of both rows (Hermite's interpolation), so that what they leave out is of the
     sixth order in the distance of the rows in the coordinates, and of the fifth in the velocities. ``simulate`` computes rows for times of choice
-    where that is too much: ``simulation={"outputs": 5000}`` in the model.
+    where that is too much: ``simulation={"output": 5000}`` in the model.
 
     Attributes
     ----------
@@ -460,32 +497,112 @@ class DenseOutput:
         return found[:, 0] if times.ndim == 0 else found
 
 
+class _Remembered:
+    """What a computation gave, without its native part; pictures, films and reports compute it again, with the same result."""
+
+    def __init__(self, kept: dict[str, Any], again: tuple[Any, ...]) -> None:
+        self.__dict__.update(kept)
+        self._again = again
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        kept = {name: own for name, own in self.__dict__.items() if name not in ("_again", "_outcome")}
+        return _Remembered, (kept, self._again)
+
+    @functools.cached_property
+    def _outcome(self) -> Outcome:
+        system, what, *asked = self._again
+        found: Outcome = getattr(system._native, what)(*asked)
+        return found
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._outcome, name)
+
+
+def remembered(outcome: Any, again: tuple[Any, ...] | None) -> _Remembered:
+    """A computation as it is pickled."""
+    if isinstance(outcome, _Remembered):
+        return outcome
+    if again is None:
+        raise TypeError("only what the methods of a System gave is pickled")
+    kept = {name: getattr(outcome, name) for name in ("interrupted", "status", "notices", "has_motion")}
+    return _Remembered(kept, again)
+
+
 class Trajectory(Result):
-    """A computed motion. ``trajectory["x"]``, ``trajectory["x'"]``, ``trajectory["lambda_blade"]`` are arrays by name.
+    """A computed motion, by name and by axis.
+
+    ``motion["x"]``, ``motion["x'"]``, ``motion["lambda_blade"]`` are arrays of shape (rows,); ``motion[["x", "y"]]`` is an array of shape (rows, 2);
+    ``motion[0]`` and ``motion[10:20]`` are rows of ``y``, shape (columns,) and (10, columns). ``"x" in motion`` asks for a name, and a loop goes over
+    the names, as of a mapping; ``len(motion)`` counts the rows, as of an array. Quantities are in SI units where the model states units.
 
     Attributes
     ----------
     t : array of shape (rows,)
         The times.
+    y : array of shape (rows, columns)
+        All columns, in the order of ``names``.
     names : list of str
         Names of the columns: ``t``, coordinates, velocities, accelerations, multipliers, ``energy``, integrals.
+    verdicts : list of Verdict
+        What was decided of the motion.
     """
 
-    def __init__(self, outcome: Outcome, text: str, system: System | None = None) -> None:
-        self._outcome = outcome
+    def __init__(
+        self, outcome: Any, text: str, system: System | None = None, asked: Mapping[str, Any] | None = None, again: tuple[Any, ...] | None = None
+    ) -> None:
+        self._outcome: Outcome = outcome
         self._system = system
+        self._again = again if again is not None or asked is None else (system, "simulate", asked)
         super().__init__(json.loads(outcome.run([])), text)
-        self.names, self._columns = outcome.columns()
+        names, columns = self._outcome.columns()
+        self.names: list[str] = names
+        self._columns: NDArray[np.float64] = columns
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        try:
-            column: NDArray[np.float64] = self._columns[self.names.index(name)]
-        except ValueError:
-            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.names)}") from None
-        return column
+    def __reduce__(self) -> tuple[Any, ...]:
+        kept = {name: own for name, own in self.__dict__.items() if name not in ("sol", "verdicts")}
+        return _unpickled, (Trajectory, {**kept, "_outcome": remembered(self._outcome, self._again)})
+
+    @overload
+    def __getitem__(self, which: str) -> NDArray[np.float64]: ...
+
+    @overload
+    def __getitem__(self, which: Sequence[str] | int | slice) -> NDArray[np.float64]: ...
+
+    def __getitem__(self, which: Any) -> NDArray[np.float64]:
+        """Columns by their names, rows by their numbers."""
+        found: NDArray[np.float64]
+        if isinstance(which, str):
+            found = self._columns[self._place(which)]
+        elif isinstance(which, (list, tuple)) and which and all(isinstance(own, str) for own in which):
+            found = self._columns[[self._place(own) for own in which]].T
+        else:
+            found = self.y[which]
+        return found
+
+    def _place(self, name: str) -> int:
+        if name in self.names:
+            return self.names.index(name)
+        # Of redundant constraints only sums of multipliers are determined.
+        parts = [own for own in self.names if name in re.findall(r"[A-Za-z_0-9']+", own)]
+        hint = f"; `{name}` itself is not determined, only {', '.join(f'`{own}`' for own in parts)}" if parts else ""
+        raise KeyError(f"there is no column `{name}`{hint}; there are {', '.join(self.names)}")
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
 
     def __len__(self) -> int:
         return int(self._columns.shape[1])
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """``numpy.asarray(motion)`` is ``motion.y``."""
+        import numpy as np
+
+        return np.array(self.y, dtype=dtype, copy=True if copy is None else copy)
 
     def keys(self) -> list[str]:
         """Names of the columns; with this, ``dict(trajectory)`` works."""
@@ -493,14 +610,25 @@ class Trajectory(Result):
 
     @property
     def t(self) -> NDArray[np.float64]:
+        """The times, shape (rows,)."""
         return self["t"]
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """All columns in the order of ``names``, shape (rows, columns); the time is the first."""
+        return self._columns.T
+
+    @functools.cached_property
+    def verdicts(self) -> list[Verdict]:
+        """What was decided of the motion: its error, drifts, what the model expects."""
+        return [Verdict(own) for own in json.loads(self._outcome.record([]))["verdicts"]]
 
     @functools.cached_property
     def sol(self) -> DenseOutput:
         """The motion between the rows: ``trajectory.sol(t)``."""
         return DenseOutput(self)
 
-    def sensitivities(self, by: str | Sequence[str]) -> dict[str, NDArray[np.float64]]:
+    def sensitivities(self, by: str | Sequence[str]) -> Columns:
         """Derivatives of coordinates and velocities by parameters and given initial values, at the times of the rows.
 
         Parameters
@@ -510,8 +638,8 @@ class Trajectory(Result):
 
         Returns
         -------
-        dict
-            A column for each of ``t``, ``x``, ``d x/d a``, …
+        Columns
+            A dict of arrays of shape (rows,): ``t``, ``x``, ``d x/d a``, …
         """
         if self._system is None:
             raise ValueError("sensitivities are computed of what System.simulate gave")
@@ -534,8 +662,17 @@ class Trajectory(Result):
 
     @property
     def drift(self) -> dict[str, float | None]:
-        """Largest changes of constraints, energy and integrals along the motion."""
+        """Largest changes of constraints, energy and integrals along the motion, absolute: in the units of what is named; :attr:`scales` are
+        what to hold them against."""
         return {own["name"]: own["value"] for own in self._data["drifts"]}
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """Largest magnitudes along the motion of what :attr:`drift` names and the columns have: ``motion.drift["energy"] / motion.scales["energy"]``
+        is the relative change."""
+        import numpy as np
+
+        return {name: float(np.max(np.abs(self[name]))) for name in self.drift if name in self.names}
 
     @property
     def events(self) -> list[dict[str, Any]]:
@@ -543,10 +680,10 @@ class Trajectory(Result):
         return list(self.to_dict()["events"])
 
     def to_numpy(self) -> NDArray[np.float64]:
-        """One array of shape (rows, columns)."""
-        return self._columns.T
+        """One array of shape (rows, columns), as ``y``."""
+        return self.y
 
-    def to_pandas(self) -> Any:
+    def to_pandas(self) -> DataFrame:
         """A ``pandas.DataFrame`` with the time as index."""
         import pandas as pd
 
@@ -578,13 +715,22 @@ class Trajectory(Result):
         """The text of ``trajectory.csv``."""
         return self._outcome.csv()
 
-    def plot(self, names: Sequence[str] | None = None, ax: Any = None) -> Any:
-        """Draws columns over the time by matplotlib; coordinates when none are named.
+    def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws columns over the time by matplotlib.
+
+        Parameters
+        ----------
+        names : str or list of str, optional
+            Columns; the coordinates when left out.
+        ax : matplotlib.axes.Axes, optional
+            Where; a new figure when left out.
 
         Returns
         -------
         matplotlib.axes.Axes
         """
+        if isinstance(names, str):
+            names = [names]
         if ax is None:
             import matplotlib.pyplot as plt
 
@@ -620,6 +766,12 @@ class Trajectory(Result):
     def render_static(self) -> str:
         """HTML with the report inside, which exported notebooks keep."""
         return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
+
+
+def _unpickled(cls: Any, kept: dict[str, Any]) -> Any:
+    made = cls.__new__(cls)
+    made.__dict__.update(kept)
+    return made
 
 
 def _data_files(outcome: Outcome) -> dict[str, bytes]:
@@ -693,17 +845,30 @@ class Film(Shown):
 class Study(Result):
     """Claims with their verdicts, and the motion. ``study["energy.integral"]`` is a verdict, ``study.verdicts`` are all."""
 
-    def __init__(self, outcome: Outcome, text: str) -> None:
-        self._outcome = outcome
+    def __init__(self, outcome: Any, text: str, again: tuple[Any, ...] | None = None) -> None:
+        self._outcome: Outcome = outcome
+        self._again = again
         super().__init__(json.loads(outcome.record([])), text)
         self.verdicts = [Verdict(own) for own in self._data["verdicts"]]
-        self.trajectory = Trajectory(outcome, outcome.summary()) if outcome.has_motion else None
+        system = None if again is None else again[0]
+        self.trajectory = Trajectory(outcome, outcome.summary(), system, None, again) if outcome.has_motion else None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (Study, {**self.__dict__, "_outcome": remembered(self._outcome, self._again)})
+
+    def __contains__(self, claim: object) -> bool:
+        """Whether a claim of this id, or this verdict, is among them."""
+        return any(claim in (own, own.claim) for own in self.verdicts)
+
+    def __len__(self) -> int:
+        return len(self.verdicts)
 
     def __getitem__(self, claim: str) -> Verdict:
         for own in self.verdicts:
             if own.claim == claim:
                 return own
-        raise KeyError(f"`{claim}` was not decided")
+        near = difflib.get_close_matches(claim, [own.claim for own in self.verdicts])
+        raise KeyError(f"`{claim}` was not decided{'; there is ' + ', '.join(near) if near else ''}")
 
     def __iter__(self) -> Iterator[Verdict]:
         return iter(self.verdicts)

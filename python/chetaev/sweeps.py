@@ -192,7 +192,8 @@ def ensemble(
     threads : int, optional
         Threads of this process, as many as the machine runs at once when left out; with an executor each task has one.
     executor : concurrent.futures.Executor or distributed.Client, optional
-        Who computes the chunks. Systems pickle, and results have the same bits whoever computes.
+        Who computes the chunks. Systems pickle, and results have the same bits whoever computes. Where a process of a ``ProcessPoolExecutor`` dies,
+        the chunks that are missing are computed in a fresh pool like it, at most three times.
     chunk : int
         Trajectories in one task and in one file.
     out : path, optional
@@ -204,7 +205,7 @@ def ensemble(
     Raises
     ------
     Interrupted
-        By Ctrl-C; its ``result`` has the trajectories that had ended.
+        By Ctrl-C; its ``result`` has the trajectories that had ended, and is ``None`` where no chunk had.
 
     Examples
     --------
@@ -272,30 +273,83 @@ def _call(task: _Task) -> tuple[Any, dict[int, str], list[str]]:
     return task()
 
 
+#: A chunk that ends its process each time is given up after so many fresh pools.
+_POOLS = 3
+
+
+class _Pools:
+    """An executor, and fresh ones like it where a process of a pool dies and takes the pool with it."""
+
+    def __init__(self, executor: Any, tasks: list[_Task]) -> None:
+        self.executor: Any = executor
+        self.tasks = tasks
+        self._fresh: list[Any] = []
+        self.waiting = [self._submitted(task) for task in tasks]
+
+    def _submitted(self, task: _Task) -> Any:
+        from concurrent.futures import BrokenExecutor, Future
+
+        try:
+            return self._submission(task)
+        except BrokenExecutor as problem:
+            # A pool that has broken by now takes nothing more.
+            broken: Future[Any] = Future()
+            broken.set_exception(problem)
+            return broken
+
+    def _submission(self, task: _Task) -> Any:
+        if self.executor is None:
+            return task
+        if type(self.executor).__module__.partition(".")[0] == "distributed":
+            return self.executor.submit(_call, task, key=f"chetaev-{task.key}")
+        return self.executor.submit(_call, task)
+
+    def result(self, number: int) -> tuple[Any, dict[int, str], list[str]]:
+        """What a task gave."""
+        from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+
+        if self.executor is None:
+            return self.tasks[number]()
+        while True:
+            try:
+                found: tuple[Any, dict[int, str], list[str]] = self.waiting[number].result()
+                return found
+            except BrokenExecutor:
+                if not isinstance(self.executor, ProcessPoolExecutor) or len(self._fresh) >= _POOLS:
+                    raise
+                own: Any = self.executor
+                self.executor = ProcessPoolExecutor(own._max_workers, mp_context=own._mp_context)
+                self._fresh.append(self.executor)
+                for later in range(number, len(self.tasks)):
+                    # Those that had ended before stay.
+                    if self.waiting[later].exception() is not None:
+                        self.waiting[later] = self._submitted(self.tasks[later])
+
+    def close(self) -> None:
+        for own in self.waiting if self.executor is not None else []:
+            own.cancel()
+        for pool in self._fresh:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
 def _ended(tasks: list[_Task], executor: Any, progress: bool) -> list[tuple[Any, dict[int, str], list[str]]]:
     """What the tasks gave, in their order."""
     from .system import _Progress
 
-    if executor is None:
-        waiting: list[Any] = tasks
-    elif type(executor).__module__.partition(".")[0] == "distributed":
-        waiting = [executor.submit(_call, task, key=f"chetaev-{task.key}") for task in tasks]
-    else:
-        waiting = [executor.submit(_call, task) for task in tasks]
+    pools = _Pools(executor, tasks)
     found = []
     with _Progress(progress) as tell:
         try:
-            for number, own in enumerate(waiting, 1):
-                found.append(own() if executor is None else own.result())
+            for number in range(len(tasks)):
+                found.append(pools.result(number))
                 if tell is not None:
-                    tell("computing trajectories", number / len(waiting))
+                    tell("computing trajectories", (number + 1) / len(tasks))
         except KeyboardInterrupt as problem:
             if isinstance(problem, Interrupted):
                 found.append((problem.result._arrays, problem.result.failures, list(problem.result.to_dict()["events"])))
             raise Interrupted(_joined(found) if found else None) from None
         finally:
-            for own in waiting if executor is not None else []:
-                own.cancel()
+            pools.close()
     return found
 
 

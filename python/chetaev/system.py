@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -12,6 +13,7 @@ from . import chetaev_native as native
 from .errors import Interrupted, ModelWarning
 from .results import (
     Check,
+    Columns,
     Comparison,
     Counts,
     Derivation,
@@ -30,11 +32,9 @@ from .results import (
 from .texts import exact, toml
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from .compiled import Compiled
     from .exported import Exported, Residuals
+    from .from_sympy import Origins
     from .sweeps import Sweep
     from .widget import Widget
 
@@ -60,7 +60,7 @@ class System:
         Kinetic and potential energy.
     lagrangian : expression, or mapping with the keys ``T``, ``V``, ``L``, optional
         The Lagrangian itself.
-    constraints : mapping from names to texts, or list of texts, optional
+    constraints : mapping from names to texts, list of texts, or one text, optional
         Constraints, as ``"y' cos(phi) = x' sin(phi)"``.
     **sections
         ``parameters``, ``initial``, ``simulation``, ``define``, ``forces``, ``assumptions``, ``steady``, ``events``, ``bodies``, ``joints``,
@@ -90,6 +90,8 @@ class System:
     """
 
     _native: native.Model
+    #: What the user's own SymPy objects are, by the names of the model, where the system was stated in SymPy.
+    _own: Origins | None = None
 
     def __init__(
         self,
@@ -99,7 +101,7 @@ class System:
         kinetic: Value = None,
         potential: Value = None,
         lagrangian: Value = None,
-        constraints: Mapping[str, Value] | Sequence[Value] | None = None,
+        constraints: Mapping[str, Value] | Sequence[Value] | str | None = None,
         **sections: Any,
     ) -> None:
         energies = dict(lagrangian) if isinstance(lagrangian, Mapping) else {"L": lagrangian}
@@ -109,6 +111,8 @@ class System:
             content["coordinates"] = coordinates
         content["lagrangian"] = {key: own for key, own in energies.items() if own is not None}
         if constraints is not None:
+            if isinstance(constraints, str):
+                constraints = [constraints]
             named = constraints if isinstance(constraints, Mapping) else {
                 f"constraint_{number}": own for number, own in enumerate(constraints, 1)
             }
@@ -138,7 +142,10 @@ class System:
         ------
         ModelError
             With everything that is wrong, each at its place.
+        OSError
+            Where the file cannot be read, as :class:`FileNotFoundError`.
         """
+        readable(path)
         return cls.__new__(cls)._take(native.Model.from_file(os.fspath(path), _pairs(set)))
 
     @classmethod
@@ -186,17 +193,30 @@ class System:
         lagrangian : expression, LagrangesMethod, KanesMethod or sympy.physics.mechanics.System
             The Lagrangian L(q, q', t), or an object that states a whole system.
         coordinates : sequence of functions of the time
-            As ``dynamicsymbols`` makes them; needed with a Lagrangian.
-        constraints : sequence or mapping
-            Expressions that vanish, or equations.
-        forces : mapping from coordinates to expressions
-            Generalized forces that are not in the Lagrangian.
-        parameters : mapping from symbols to values
+            As ``dynamicsymbols`` makes them, of one time; needed with a Lagrangian, and with it only.
+        constraints : sequence or mapping from names to these
+            Expressions that vanish, or equations; with a Lagrangian only.
+        forces : mapping from coordinates, or their names, to expressions
+            Generalized forces that are not in the Lagrangian; with a Lagrangian only.
+        parameters : mapping from symbols, or their names, to values; or list of these
             Those without a value stay symbols.
         derived : bool
-            States beside it the equations that the object has derived; ``study(claims="equations.stated")`` decides whether they are right.
+            States beside it the equations that the object has derived; ``study(claims="equations.stated")`` decides whether they are right. A
+            Lagrangian has derived none.
         **sections
-            As for :class:`System`: ``initial``, ``simulation``, …
+            As for :class:`System`: ``initial``, ``simulation``, ``controls``, …; keys may be SymPy's too, ``initial={x.diff(t): 1}``.
+
+        Raises
+        ------
+        TypeError
+            For what is said beside an object that states it itself.
+        ValueError
+            Where symbols of one name differ, or a function of the time is neither a coordinate nor a control.
+
+        Notes
+        -----
+        ``derive().to_sympy()`` and ``sympify`` give the symbols, the functions and the time of the statement back. Names that a model cannot
+        declare are changed, and a warning says to what.
 
         Examples
         --------
@@ -209,21 +229,77 @@ class System:
         from .from_sympy import Statement, statement
 
         if coordinates is None:
+            constraints = constraints if isinstance(constraints, Mapping) else list(constraints)
+            for word, given in (("constraints", constraints), ("forces", forces)):
+                if given:
+                    raise TypeError(f"{word}: {type(lagrangian).__name__} states its own; they belong to a Lagrangian with its coordinates")
             stated = statement(lagrangian, parameters, derived=derived)
         else:
-            stated = Statement(lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters)
-        return cls(name, **{**stated.sections, **sections})
+            if derived:
+                raise TypeError("derived: a Lagrangian has derived no equations; LagrangesMethod, KanesMethod and System have")
+            stated = Statement(
+                lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters, controls=sections.pop("controls", ()),
+            )
+        for said in stated.renamed:
+            warnings.warn(said, ModelWarning, stacklevel=2)
+        own = cls(name, **{**stated.sections, **stated.in_names(sections)})
+        own._own = stated.origins
+        return own
 
     def with_values(self, **values: Value) -> System:
-        """The same system with other values of parameters and sizes."""
+        """The same system with other values of parameters and sizes; what follows from them changes with them.
+
+        Parameters
+        ----------
+        **values : number, text, fraction or SymPy expression
+            In the units of the model. A parameter that the model defines by others is set by its own name, and follows them no more.
+
+        Returns
+        -------
+        System
+        """
+        return self._with(_pairs(values))
+
+    def with_initial(self, values: Mapping[Any, Value]) -> System:
+        """The same system with other initial values.
+
+        Parameters
+        ----------
+        values : mapping from names to numbers, texts or expressions
+            Coordinates and velocities, ``{"phi": 0.1, "x'": "v_0"}``; for a system from SymPy its functions and their derivatives too. What is not
+            named stays as it is.
+
+        Returns
+        -------
+        System
+
+        Examples
+        --------
+        >>> System.from_gallery("chaplygin-sleigh").with_initial({"phi'": 2}).initial["phi'"]
+        '2'
+        """
+        return self._with([(f"initial.{self._name_of(own)}", exact(value)) for own, value in values.items()])
+
+    def _name_of(self, own: Any) -> str:
+        if isinstance(own, str):
+            return own
+        return self._own.text(own) if self._own is not None else exact(own)
+
+    def _with(self, pairs: list[tuple[str, str]]) -> System:
         path, text, includes, overrides = self._native.texts()
-        kept = [own for own in overrides if own[0] not in values]
-        return type(self).__new__(type(self))._take(
-            native.Model.from_texts(path, text, includes, kept + _pairs(values))
-        )
+        names = [name for name, _ in pairs]
+        kept = [own for own in overrides if own[0] not in names]
+        return _again(type(self), path, text, includes, kept + pairs, self._own)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), *self._native.texts())
+        return _again, (type(self), *self._native.texts(), self._own)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are read from the same texts, with the same values set."""
+        return isinstance(other, System) and self._native.texts() == other._native.texts()
+
+    def __hash__(self) -> int:
+        return hash(self.text)
 
     @property
     def name(self) -> str:
@@ -245,6 +321,21 @@ class System:
         return self._native.constraints
 
     @property
+    def velocities(self) -> list[str]:
+        """Names of the velocities, in the order of the coordinates."""
+        return [f"{name}'" for name in self.coordinates]
+
+    @property
+    def initial(self) -> dict[str, str]:
+        """Initial values as they are stated, by the names of coordinates and velocities; guesses are among them."""
+        return {name: text for name, text, _ in self._native.initial}
+
+    @property
+    def following(self) -> dict[str, str]:
+        """Parameters that the model defines by others, each with what it is in terms of free ones."""
+        return dict(self._native.following)
+
+    @property
     def text(self) -> str:
         """The model file."""
         return self._native.texts()[1]
@@ -261,12 +352,24 @@ class System:
     def sympify(self, expressions: Sequence[str] | str) -> Any:
         """Expressions of the model notation in SymPy, exactly.
 
-        Coordinates are functions of the time, ``sympy.Function("x", real=True)(t)``; a text gives one expression, a list a list.
+        Coordinates, controls and masses with a law of their own are functions of the time, ``sympy.Function("x", real=True)(t)``; of a system that
+        was stated in SymPy they are the functions, the symbols and the time of the statement.
+
+        Parameters
+        ----------
+        expressions : str or list of str
+            Texts in the notation of the model.
+
+        Returns
+        -------
+        sympy.Expr, or list of these
         """
         texts = [expressions] if isinstance(expressions, str) else list(expressions)
         space: dict[str, Any] = {}
-        exec(compile(self._native.sympy(texts), "<chetaev>", "exec"), space)
+        exec(compile(self._native.sympy([" ".join(own.split()) for own in texts]), "<chetaev>", "exec"), space)
         found = list(space["found"]["all"])
+        if self._own is not None:
+            found = [self._own.back(own) for own in found]
         return found[0] if isinstance(expressions, str) else found
 
     def lowered(self) -> str:
@@ -393,17 +496,20 @@ class System:
             Which branch of the motion is followed, where there are several.
         """
         words = claims if claims is None or isinstance(claims, str) else ",".join(claims)
+        if words == "":
+            raise ValueError("claims: none is named; leave it out for all of them")
         asked = _asked(
             claims=words, budget=budget, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
         with _Progress(progress) as tell:
             outcome = self._native.study(asked, tell)
-        return _finished(Study(outcome, outcome.summary()), outcome, out)
+        return _finished(Study(outcome, outcome.summary(), (self, "study", asked)), outcome, out)
 
     def simulate(
         self,
         *,
+        initial: Mapping[Any, Value] | None = None,
         out: str | os.PathLike[str] | None = None,
         progress: bool = False,
         t_end: Value = None,
@@ -416,20 +522,65 @@ class System:
         keep_integrals: bool = False,
         branch: int | None = None,
     ) -> Trajectory:
-        """Computes the motion from the initial data of the model; the keywords are those of :meth:`study`.
+        """Computes the motion.
+
+        Parameters
+        ----------
+        initial : mapping from names to values, optional
+            Other initial values than those of the model, ``{"phi": 0.1, "x'": 2}``, as :meth:`with_initial`.
+        out : path, optional
+            A folder to write ``trajectory.csv`` and ``trajectory.npz`` into.
+        progress : bool
+            Whether a progress bar is shown.
+        t_end : expression, optional
+            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
+        tolerance : float, optional
+            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
+        step : expression, optional
+            Fixed step, in the unit of time.
+        method : str, optional
+            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
+        precision : str, optional
+            ``double`` or ``double-double``.
+        formulation : str, optional
+            The formulation whose equations are integrated.
+        project : bool
+            Moves inadmissible initial data to the nearest admissible state.
+        keep_integrals : bool
+            Keeps the first integrals that are found, by projection.
+        branch : int, optional
+            Which branch of the motion is followed, from 1, where there are several.
+
+        Returns
+        -------
+        Trajectory
+            Its columns are arrays of shape (rows,), by name: ``motion["x"]``.
 
         Raises
         ------
+        ModelError
+            Where no state satisfies the constraints, or something has no value.
         Interrupted
             By Ctrl-C; its ``result`` is the trajectory as far as it went.
+
+        Examples
+        --------
+        >>> motion = System.from_gallery("chaplygin-sleigh").simulate(initial={"phi'": 2}, t_end=1)
+        >>> float(motion["phi'"][0]), motion.y.shape == (len(motion), len(motion.names))
+        (2.0, True)
         """
+        if initial:
+            return self.with_initial(initial).simulate(
+                out=out, progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+                formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+            )
         asked = _asked(
             t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
         with _Progress(progress) as tell:
             outcome = self._native.simulate(asked, tell)
-        return _finished(Trajectory(outcome, outcome.summary(), self), outcome, out)
+        return _finished(Trajectory(outcome, outcome.summary(), self, asked), outcome, out)
 
     def plot(
         self,
@@ -462,6 +613,30 @@ class System:
             Shows the bodies at so many earlier times too.
         width, height : int
             Width and greatest height in pixels.
+        progress : bool
+            Whether a progress bar is shown.
+        t_end : expression, optional
+            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
+        tolerance : float, optional
+            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
+        step : expression, optional
+            Fixed step, in the unit of time.
+        method : str, optional
+            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
+        precision : str, optional
+            ``double`` or ``double-double``.
+        formulation : str, optional
+            The formulation whose equations are integrated.
+        project : bool
+            Moves inadmissible initial data to the nearest admissible state.
+        keep_integrals : bool
+            Keeps the first integrals that are found, by projection.
+        branch : int, optional
+            Which branch of the motion is followed, from 1, where there are several.
+
+        Returns
+        -------
+        Picture
         """
         motion = self.simulate(
             progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
@@ -500,6 +675,30 @@ class System:
             How long the film is; as long as the motion, from 2 to 20 seconds, when left out.
         width, height : int
             Width and greatest height in pixels.
+        progress : bool
+            Whether a progress bar is shown.
+        t_end : expression, optional
+            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
+        tolerance : float, optional
+            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
+        step : expression, optional
+            Fixed step, in the unit of time.
+        method : str, optional
+            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
+        precision : str, optional
+            ``double`` or ``double-double``.
+        formulation : str, optional
+            The formulation whose equations are integrated.
+        project : bool
+            Moves inadmissible initial data to the nearest admissible state.
+        keep_integrals : bool
+            Keeps the first integrals that are found, by projection.
+        branch : int, optional
+            Which branch of the motion is followed, from 1, where there are several.
+
+        Returns
+        -------
+        Film
         """
         motion = self.simulate(
             progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
@@ -536,6 +735,34 @@ class System:
             Computes the motion and the constrained extremum from the same state.
         kappa : mapping, optional
             Initial values of multipliers of the extremum, ``{"kappa_blade": 0.5}``.
+        out : path, optional
+            Folder to write the report, the record and the trajectory into; with ``compare``.
+        budget : float
+            Work for all claims together, in seconds of a usual machine.
+        progress : bool
+            Whether a progress bar is shown.
+        t_end : expression, optional
+            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
+        tolerance : float, optional
+            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
+        step : expression, optional
+            Fixed step, in the unit of time.
+        method : str, optional
+            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
+        precision : str, optional
+            ``double`` or ``double-double``.
+        formulation : str, optional
+            The formulation whose equations are integrated.
+        project : bool
+            Moves inadmissible initial data to the nearest admissible state.
+        keep_integrals : bool
+            Keeps the first integrals that are found, by projection.
+        branch : int, optional
+            Which branch of the motion is followed, from 1, where there are several.
+
+        Returns
+        -------
+        Study
         """
         if kappa and not compare:
             raise ValueError("kappa: it needs compare=True")
@@ -547,7 +774,7 @@ class System:
         )
         with _Progress(progress) as tell:
             outcome = self._native.principles(asked, compare, tell)
-        return _finished(Study(outcome, outcome.story()), outcome, out)
+        return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out)
 
     def sweep(
         self,
@@ -758,7 +985,7 @@ class System:
 
     def sensitivity(
         self, by: str | Iterable[str], times: Iterable[float], *, second: bool = False, progress: bool = False
-    ) -> dict[str, NDArray[np.float64]]:
+    ) -> Columns:
         """Derivatives of coordinates and velocities by parameters and given initial values, by the variational equations.
 
         Parameters
@@ -772,8 +999,8 @@ class System:
 
         Returns
         -------
-        dict
-            A column for each of ``t``, ``x``, ``d x/d a``, ``d2 x/d a d b``.
+        Columns
+            A dict of arrays of shape (times,): ``t``, ``x``, ``d x/d a``, ``d2 x/d a d b``.
         """
         import numpy as np
 
@@ -781,21 +1008,30 @@ class System:
         with _Progress(progress) as tell:
             columns, rows = self._native.sensitivity(names, second, [float(t) for t in times], tell)
         table = np.array(rows, dtype=np.float64).reshape(-1, len(columns))
-        return {name: table[:, place].copy() for place, name in enumerate(columns)}
+        return Columns({name: table[:, place].copy() for place, name in enumerate(columns)})
 
-    def compile(self, **values: float) -> Compiled:
+    def compile(self, **values: Value) -> Compiled:
         """The equations of motion as functions of NumPy arrays, with the values of the model or these ones.
+
+        Parameters
+        ----------
+        **values
+            As :meth:`with_values`: what follows from them changes with them, and assumptions of the model are kept.
+
+        Returns
+        -------
+        Compiled
 
         Examples
         --------
-        >>> import numpy as np
+        >>> from scipy.integrate import solve_ivp
         >>> f = System.from_gallery("chaplygin-sleigh").compile()
-        >>> f.rhs(0.0, np.zeros(6)).shape
-        (6,)
+        >>> solve_ivp(f.rhs, (0, 10), f.start).success
+        True
         """
         from .compiled import Compiled
 
-        return Compiled(self, values)
+        return Compiled(self.with_values(**values) if values else self)
 
     def widget(
         self, *, width: int = 720, height: int = 405, motion: Mapping[str, Any] | None = None, **ranges: tuple[float, float]
@@ -854,10 +1090,19 @@ class System:
         return Exported(source, library, names_of(source))
 
 
-def _again(cls: type[System], path: str, text: str, includes: Any, overrides: Any) -> System:
+def _again(cls: type[System], path: str, text: str, includes: Any, overrides: Any, own: Origins | None = None) -> System:
+    # What is doubtful was said when it was read first.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)
-        return cls.__new__(cls)._take(native.Model.from_texts(path, text, includes, overrides))
+        made = cls.__new__(cls)._take(native.Model.from_texts(path, text, includes, overrides))
+    made._own = own
+    return made
+
+
+def readable(path: str | os.PathLike[str]) -> None:
+    """Whether a file can be read, or Python's own exception that says why not."""
+    with open(path, "rb"):
+        pass
 
 
 def of_gallery(name: str) -> tuple[str, str, list[tuple[str, str]]]:
@@ -882,8 +1127,37 @@ def _asked(**options: Any) -> dict[str, Any]:
     for name in ("t_end", "step"):
         if asked[name] is not None:
             asked[name] = exact(asked[name])
+    for name in ("budget", "tolerance"):
+        if asked[name] is not None:
+            asked[name] = _number(name, asked[name])
+    for name in ("project", "keep_integrals"):
+        asked[name] = bool(asked[name])
+    if asked["branch"] is not None:
+        try:
+            asked["branch"] = operator.index(asked["branch"])
+        except TypeError:
+            raise TypeError(f"branch: a whole number is needed, not {asked['branch']!r}") from None
+        if asked["branch"] < 1:
+            raise ValueError(f"branch: branches are counted from 1, and {asked['branch']} is none")
+    for name in ("claims", "method", "precision", "formulation"):
+        if asked[name] is not None and not isinstance(asked[name], str):
+            raise TypeError(f"{name}: a text is needed, not {type(asked[name]).__name__}")
     asked["kappa"] = _pairs(options.get("kappa"))
     return asked
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, bool):
+        raise TypeError(f"{name}: a number is needed, not a truth value")
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise type_or_value(value)(f"{name}: a number is needed, not {value!r}") from None
+
+
+def type_or_value(value: Any) -> type[Exception]:
+    """What Python raises for a text that is no number, and for what can be none."""
+    return ValueError if isinstance(value, str) else TypeError
 
 
 def _wanted(**options: Any) -> dict[str, Any]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
+import sys
 from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from numbers import Integral, Rational, Real
 from typing import Any
 
@@ -27,6 +29,13 @@ def exact(value: Any) -> str:
         return str(int(value))
     if isinstance(value, Rational):
         return f"{int(value.numerator)}/{int(value.denominator)}"
+    if isinstance(value, Decimal):
+        if not value.is_finite():
+            raise ValueError(f"{value} is no finite number")
+        return str(value)
+    if getattr(value, "shape", None) == () and not hasattr(value, "free_symbols"):
+        # An array of one number, of NumPy or of JAX.
+        return exact(value.item())
     if isinstance(value, Real) and not hasattr(value, "free_symbols"):
         number = float(value)
         if not math.isfinite(number):
@@ -54,8 +63,10 @@ def of_sympy(value: Any) -> str:
             return str(function + "'" * int(count))
 
         def _print_Float(self, expr: Any) -> str:
-            # More digits than a double has are kept.
-            return repr(float(expr)) if expr._prec <= 53 else str(expr)
+            # More digits than a double has are kept, and what is too small or too large for one.
+            own = abs(float(expr))
+            is_double = expr._prec <= 53 and (expr == 0 or sys.float_info.min <= own <= sys.float_info.max)
+            return repr(float(expr)) if is_double else str(expr)
 
         def _print_Function(self, expr: Any) -> str:
             if isinstance(expr, sp.core.function.AppliedUndef):
@@ -86,10 +97,37 @@ def of_sympy(value: Any) -> str:
                 raise ValueError(f"`{name}` is no name: letters, digits and underscores are, with a letter first")
             return name
 
-    value = sp.sympify(value)
+    value = known_functions(value)
+    for atom in value.atoms(sp.NumberSymbol) - {sp.pi, sp.E}:
+        raise ValueError(f"{atom} has no place in a model: no formula of it is known; put its digits in")
     for atom in value.atoms(sp.Integral, sp.Piecewise, sp.I.__class__):
         raise ValueError(f"{atom} has no place in a model")
     return str(Printer({"order": "none"}).doprint(value))
+
+
+def known_functions(value: Any) -> Any:
+    """A SymPy expression without functions that a model does not have: ``sech`` is ``1/cosh``; and with derivatives of expressions done."""
+    import sympy as sp
+    from sympy.core.function import AppliedUndef
+
+    inverse = {
+        sp.sech: sp.cosh, sp.csch: sp.sinh, sp.acot: sp.atan, sp.asec: sp.acos, sp.acsc: sp.asin, sp.asech: sp.acosh, sp.acsch: sp.asinh,
+        sp.acoth: sp.atanh,
+    }
+    of_functions = {sp.sech, sp.csch}
+    value = sp.sympify(value)
+    if value.has(sp.Derivative):
+        value = value.replace(lambda own: isinstance(own, sp.Derivative) and not isinstance(own.expr, AppliedUndef), lambda own: own.doit())
+    for known, other in inverse.items():
+        if not value.has(known):
+            continue
+        if known in of_functions:
+            value = value.replace(known, lambda x, other=other: 1 / other(x))
+        else:
+            value = value.replace(known, lambda x, other=other: other(1 / x))
+    if value.has(sp.coth):
+        value = value.replace(sp.coth, lambda x: sp.cosh(x) / sp.sinh(x))
+    return value.xreplace({sp.GoldenRatio: (1 + sp.sqrt(5)) / 2})
 
 
 def toml(sections: Mapping[str, Any]) -> str:
@@ -119,7 +157,9 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(own)}" for key, own in value.items()) + " }"
-    # A quotient is an expression, and stands in quotation marks.
+    # A quotient is an expression, and stands in quotation marks; so does an integer that TOML does not have.
+    if isinstance(value, Integral) and not -(2**63) <= int(value) < 2**63:
+        return _text(exact(value))
     if isinstance(value, Integral) or isinstance(value, Real) and not isinstance(value, Rational):
         return exact(value)
     if isinstance(value, str):

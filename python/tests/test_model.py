@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import sys
 import time
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -122,3 +123,45 @@ def test_robots_are_read(tmp_path: Path) -> None:
     robot.write_text("<robot")
     with pytest.raises(chetaev.OptionError):
         System.from_urdf(robot)
+
+
+def test_python_says_what_is_wrong_with_a_file(tmp_path: Path) -> None:
+    for read in (System.from_file, chetaev.Functional.from_file):
+        with pytest.raises(FileNotFoundError) as found:
+            read(tmp_path / "nowhere.toml")
+        assert found.value.errno is not None and found.value.filename
+        with pytest.raises(IsADirectoryError):
+            read(tmp_path)
+
+
+def test_numbers_of_python_are_taken() -> None:
+    big = skate(parameters={"m": 132712440018000000000, "J": Decimal("0.4")})
+    assert big.parameters == {"m": "132712440018000000000", "J": "2/5"}
+    one = System("one", coordinates=["x"], kinetic="1/2 x'^2", constraints="x' = 1")
+    assert one.constraints == ["constraint_1"]
+
+
+@pytest.mark.parametrize(
+    ("keywords", "kind"), [({"tolerance": "small"}, ValueError), ({"tolerance": []}, TypeError), ({"branch": -1}, ValueError), ({"branch": "a"}, TypeError)]
+)
+def test_a_wrong_keyword_is_named(keywords: dict[str, object], kind: type[Exception]) -> None:
+    with pytest.raises(kind, match=next(iter(keywords))):
+        skate().simulate(**keywords)  # type: ignore[arg-type]
+    assert skate().simulate(tolerance="1e-6", t_end=1).finished  # type: ignore[arg-type]
+
+
+def test_an_error_without_a_place_has_none() -> None:
+    with pytest.raises(ModelError) as found:
+        chetaev.Functional.from_gallery("chaplygin-sleigh")
+    assert found.value.line is None and found.value.file is None and found.value.hint is None
+
+
+def test_no_claims_are_no_question() -> None:
+    with pytest.raises(ValueError, match="claims"):
+        skate().study(claims=[])
+
+
+def test_equal_systems_are_equal() -> None:
+    assert skate() == skate() and hash(skate()) == hash(skate())
+    assert skate() != skate().with_values(m=2) and skate().with_values(m=2) == skate().with_values(m=2)
+    assert skate().velocities == ["x'", "y'", "phi'"] and skate().initial == {"x'": "1", "phi'": "0.5"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -179,3 +180,89 @@ def test_sliders_compute_the_motion_anew(sleigh: System) -> None:
     assert live.said
     with pytest.raises(ValueError, match="`b` is no parameter"):
         sleigh.widget(b=(0, 1))
+
+
+def test_a_motion_is_there_by_name_and_by_axis(sleigh: System) -> None:
+    run = sleigh.simulate(t_end=1)
+    rows, columns = len(run), len(run.names)
+    assert run.y.shape == np.asarray(run).shape == (rows, columns)
+    np.testing.assert_array_equal(run.y[:, run.names.index("x'")], run["x'"])
+    np.testing.assert_array_equal(run[["x", "y"]], np.stack([run["x"], run["y"]], axis=1))
+    assert run[0].shape == (columns,) and run[0:3].shape == (3, columns)
+    np.testing.assert_array_equal(run[-1], run.y[-1])
+    assert "x" in run and "z" not in run and list(run) == run.names
+    assert dict(run)["x"].shape == (rows,)
+    assert run.verdicts and all(own.claim for own in run.verdicts)
+    assert run.plot("phi'").get_lines()[0].get_label() == "phi'"
+    # The energy is 1/2 (m v^2 + (J + m a^2) w^2) and stays: its scale is what it is at the start.
+    assert run.scales["energy"] == pytest.approx(run["energy"][0], rel=1e-8)
+
+
+def test_results_pickle(sleigh: System) -> None:
+    run = sleigh.simulate(t_end=1, initial={"phi'": 2})
+    again = pickle.loads(pickle.dumps(run))
+    np.testing.assert_array_equal(again.y, run.y)
+    assert str(again) == str(run) and again.drift == run.drift and again.names == run.names
+    # What draws computes the motion again, and it is the same.
+    assert again.picture().to_svg() == run.picture().to_svg()
+    study = sleigh.study(claims=["energy.integral", "motion"], t_end=1)
+    other = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(study))))
+    assert other.to_dict() == study.to_dict() and other.ok == study.ok
+    assert other.trajectory is not None and study.trajectory is not None
+    np.testing.assert_array_equal(other.trajectory["x"], study.trajectory["x"])
+
+
+def test_membership_is_by_name(sleigh: System) -> None:
+    derived = sleigh.derive("maggi")
+    assert "maggi" in derived and derived[0] in derived and "routh" not in derived
+    study = sleigh.study(claims="energy.integral", t_end=1)
+    assert "energy.integral" in study and "model.flat" not in study
+    with pytest.raises(KeyError, match="energy.integral"):
+        study["energy.integrl"]
+    assert "chaplygin-sleigh" in chetaev.gallery.list() and "chaplygin-sleigh" in list(chetaev.gallery.list())
+
+
+def test_undetermined_multipliers_are_explained() -> None:
+    twice = System(
+        "twice",
+        coordinates=["x", "y"],
+        kinetic="1/2 (x'^2 + y'^2)",
+        constraints={"a": "x' = y'", "b": "2 x' = 2 y'"},
+        initial={"x'": 1, "y'": 1},
+    )
+    run = twice.simulate(t_end=1)
+    sums = [name for name in run.names if "lambda_a" in name]
+    assert sums and "lambda_a" not in run
+    with pytest.raises(KeyError, match="not determined"):
+        run["lambda_a"]
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        "System.from_gallery('double-pendulum').sensitivity('l', [20000.0])",
+        "motion.animate(seconds=20, width=1600, height=900)",
+        "f.jac(0.0, np.zeros((6_000_000, 6)))",
+    ],
+)
+def test_ctrl_c_ends_long_work(work: str) -> None:
+    script = f"""
+        import os, signal, threading, time
+        import numpy as np
+        from chetaev import System
+        motion = System.from_gallery("chaplygin-sleigh").simulate(t_end=5)
+        f = motion._system.compile()
+        f.jac(0.0, np.zeros(6))
+        sent = []
+        def send():
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+        threading.Timer(0.5, send).start()
+        try:
+            {work}
+        except KeyboardInterrupt:
+            print(time.perf_counter() - sent[0])
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, check=True)
+    # 0.2 s on a machine of its own; a busy one takes turns.
+    assert done.stdout and float(done.stdout) < 2, done

@@ -144,3 +144,23 @@ def test_steady_motions_are_the_json(command: Any, gallery: Path) -> None:
     found = System.from_file(path).steady()
     assert found.to_dict() == command("steady", str(path))
     assert len(found.motions) == 4
+
+
+def _killing(path: str) -> None:
+    """Ends one process of a pool, once."""
+    try:
+        os.close(os.open(path, os.O_CREAT | os.O_EXCL))
+    except FileExistsError:
+        return
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="processes are killed as POSIX has it")
+def test_a_process_that_dies_costs_its_chunk_only(sleigh: System, tmp_path: Path) -> None:
+    context = multiprocessing.get_context("spawn")
+    mark = str(tmp_path / "killed")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        pool.submit(_killing, mark)
+        found = chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, executor=pool, chunk=3)
+    assert os.path.exists(mark)
+    same(found, chetaev.ensemble(sleigh, parameters=VARIED, t_end=1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from fractions import Fraction
 from typing import Any
 
@@ -187,3 +188,101 @@ def test_a_wheel_with_the_rolling_in_its_angular_velocity() -> None:
     found = dict(zip(names, f.rhs(0.0, np.array(list(state.values())))[len(names) // 2 :]))
     speed = next(own for own in names if own.startswith("u_path"))
     np.testing.assert_allclose(found[speed], 0.3 / (1.5 * 2 * 0.5), rtol=1e-12)
+
+
+def test_what_comes_back_is_the_users_own() -> None:
+    x = me.dynamicsymbols("x")
+    m, k = sp.symbols("m k")
+    system = System.from_sympy(m * x.diff() ** 2 / 2 - k * x**2 / 2, [x], parameters=[m, k], initial={x: 1, x.diff(t): sp.Rational(1, 3)})
+    assert system.initial == {"x": "1", "x'": "1/3"}
+    (equation,) = system.derive("routh").to_sympy()["routh"]["equations of motion"]
+    assert sp.expand(equation.lhs - equation.rhs - m * x.diff(t, 2) - k * x) == 0
+    assert system.sympify("m x'") == m * x.diff(t) == pickle.loads(pickle.dumps(system)).with_values(m=2).sympify("m x'")
+    # A time of another name is a time too.
+    s = sp.Symbol("s")
+    y = sp.Function("y")(s)
+    (equation,) = System.from_sympy(y.diff(s) ** 2 / 2 + s * y, [y]).derive("routh").to_sympy()["routh"]["equations of motion"]
+    assert sp.expand(equation.lhs - equation.rhs - y.diff(s, 2) + s) == 0
+
+
+def test_controls_are_stated_by_functions_or_names() -> None:
+    x, f = me.dynamicsymbols("x f")
+    for controls in ({"f": {}}, {f: {}}, [f]):
+        system = System.from_sympy(x.diff() ** 2 / 2 + f * x, [x], controls=controls)
+        assert "f = {" in system.text
+    assert "sin(t)" in System.from_sympy(x.diff() ** 2 / 2 + f * x, [x], controls={f: sp.sin(t)}).text
+
+
+@pytest.mark.parametrize(
+    ("keywords", "said"),
+    [
+        ({"forces": {"y": 1}}, "no coordinate; there are"),
+        ({"parameters": {"mm": 1}}, "no symbol"),
+        ({"derived": True}, "a Lagrangian has derived no equations"),
+    ],
+)
+def test_what_does_not_fit_is_refused(keywords: dict[str, Any], said: str) -> None:
+    x, m = me.dynamicsymbols("x"), sp.Symbol("m")
+    with pytest.raises((TypeError, ValueError), match=said):
+        System.from_sympy(m * x.diff() ** 2 / 2, [x], **keywords)
+
+
+def test_symbols_of_one_name_are_refused() -> None:
+    x, m = me.dynamicsymbols("x"), sp.Symbol("m")
+    for other in (sp.Symbol("m", positive=True), sp.Symbol("t", real=True)):
+        with pytest.raises(ValueError, match="two symbols of the name"):
+            System.from_sympy(m * x.diff() ** 2 / 2 - other * x, [x])
+    with pytest.warns(UserWarning, match="x is called `x_2`"):
+        assert System.from_sympy(m * x.diff() ** 2 / 2 - sp.Symbol("x") * x, [x]).coordinates == ["x"]
+
+
+def test_objects_state_their_own() -> None:
+    x, m = me.dynamicsymbols("x"), sp.Symbol("m")
+    method = me.LagrangesMethod(m * x.diff() ** 2 / 2, [x])
+    for keywords in ({"forces": {x: 1}}, {"constraints": [x]}, {"coordinates": [x]}):
+        with pytest.raises(TypeError):
+            System.from_sympy(method, **keywords)
+    with pytest.raises(ValueError, match="kanes_equations"):
+        u = me.dynamicsymbols("u")
+        System.from_sympy(me.KanesMethod(me.ReferenceFrame("N"), [x], [u], [x.diff() - u]))
+
+
+def test_velocity_constraints_of_a_system_are_taken() -> None:
+    q1, q2, u1, u2 = me.dynamicsymbols("q1 q2 u1 u2")
+    frame, origin = me.ReferenceFrame("N"), me.Point("O")
+    origin.set_vel(frame, 0)
+    system = me.System(frame=frame, fixed_point=origin)
+    system.add_bodies(me.Particle("p", origin.locatenew("P", q1 * frame.x + q2 * frame.y), sp.Symbol("m")))
+    system.add_coordinates(q1, q2)
+    system.add_speeds(u1, u2, independent=[True, False])
+    system.add_kdes(q1.diff() - u1, q2.diff() - u2)
+    system.velocity_constraints = [u2 - q1 * u1]
+    assert System.from_sympy(system).constraints == ["velocity_1"]
+
+
+def test_speeds_of_a_lagrangian_are_put_in() -> None:
+    g = sp.Symbol("g")
+    wall, bob = me.RigidBody("wall"), me.RigidBody("bob")
+    system = me.System.from_newtonian(wall)
+    system.add_joints(me.PinJoint("pin", wall, bob, joint_axis=wall.z, child_point=-1 * bob.x))
+    system.apply_uniform_gravity(g * wall.x)
+    system.form_eoms(eom_method=me.LagrangesMethod)
+    with pytest.warns(UserWarning, match="0 = 0"):
+        found = System.from_sympy(system, derived=True)
+    # A pendulum of length 1: gravity is in it, and no control is.
+    numbers = {"bob_izz": 1, "bob_mass": 2, "g": 3}
+    np.testing.assert_allclose(accelerations(found, numbers, np.array([0.3, 0.0])), -2 * 3 * np.sin(0.3) / (1 + 2), rtol=1e-13)
+
+
+def test_functions_that_a_model_does_not_have_are_written_by_others() -> None:
+    x = sp.Symbol("x", positive=True)
+    for function in (sp.sech, sp.csch, sp.coth, sp.acot, sp.asec, sp.acsc, sp.asech, sp.acsch, sp.acoth):
+        at = 0.4 if function is sp.asech else 1.7
+        written = sp.sympify(of_sympy(function(x)))
+        assert complex(written.subs(sp.Symbol("x"), at)) == pytest.approx(complex(function(at)), rel=1e-14)
+    y = me.dynamicsymbols("y")
+    assert of_sympy(sp.Derivative(y**3, t)).replace(" ", "") == "3*y**2*y'"
+    assert float(sp.sympify(of_sympy(sp.GoldenRatio))) == pytest.approx((1 + 5**0.5) / 2)
+    assert sp.Rational(of_sympy(sp.Float("1e-400"))) > 0
+    with pytest.raises(ValueError, match="EulerGamma"):
+        of_sympy(sp.EulerGamma)
