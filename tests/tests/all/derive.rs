@@ -650,8 +650,8 @@ fn symbols_of_the_model_are_typeset() {
     for own in [
         "m_{\\mathrm{bob}} r_R^2 \\ddot{\\theta}",
         "\\lambda \\theta",
-        "$m_{\\mathrm{bob}}$ & \\texttt{m} & parameter: mass & kg",
-        "$\\theta$ & \\texttt{theta} & coordinate: angle & rad",
+        "$m_{\\mathrm{bob}}$ & \\texttt{m} & parameter: mass & $\\mathrm{kg}$",
+        "$\\theta$ & \\texttt{theta} & coordinate: angle & $\\mathrm{rad}$",
     ] {
         assert!(latex.contains(own), "{own}\n{latex}");
     }
