@@ -4,10 +4,11 @@ use super::{condition, first, Found};
 use crate::study::{Decided, Study};
 use chetaev_symbolic::Verdict;
 
-/// A claim on something that the model states by a name, and what a name is of which it is proved.
+/// A claim on something that the model states by a name, and what a name is of which it is proved, or several are.
 struct Asked {
     claim: &'static str,
     proved: &'static str,
+    all_proved: &'static str,
     refuted: &'static str,
 }
 
@@ -15,21 +16,25 @@ const ASKED: [Asked; 4] = [
     Asked {
         claim: "equations.stated",
         proved: "the equations of motion",
+        all_proved: "each the equations of motion",
         refuted: "not the equations of motion",
     },
     Asked {
         claim: "model.same-motion",
         proved: "the same motion",
+        all_proved: "each the same motion",
         refuted: "not the same motion",
     },
     Asked {
         claim: "noether.inverse",
         proved: "a first integral",
+        all_proved: "first integrals",
         refuted: "no first integral",
     },
     Asked {
         claim: "noether.form",
         proved: "a form with a first integral",
+        all_proved: "forms with first integrals",
         refuted: "a form without a first integral",
     },
 ];
@@ -40,16 +45,12 @@ pub(super) fn found(study: &Study) -> Option<Found> {
     let mut sentences = Vec::new();
     for asked in ASKED {
         let all = study.verdicts.iter();
-        for decided in all.filter(|d| d.claim == asked.claim) {
-            let Some(name) = decided.subject.as_deref() else {
-                continue;
-            };
-            let Some(words) = words(study, &asked, decided) else {
-                continue;
-            };
-            claims.push(decided.full_id());
-            sentences.push(format!("{name}: {words}"));
-        }
+        let all = all.filter(|d| d.claim == asked.claim && d.subject.is_some());
+        let (proved, others): (Vec<&Decided>, Vec<&Decided>) =
+            all.partition(|d| matches!(d.finding.verdict, Verdict::Proved(_)));
+        claims.extend(proved.iter().chain(&others).map(|d| d.full_id()));
+        sentences.extend(together(&asked, &proved));
+        sentences.extend(others.iter().filter_map(|d| alone(study, &asked, d)));
     }
     (!sentences.is_empty()).then_some(Found {
         subject: "stated",
@@ -58,22 +59,30 @@ pub(super) fn found(study: &Study) -> Option<Found> {
     })
 }
 
-/// What is not decided is told with all else that is not.
-fn words(study: &Study, asked: &Asked, decided: &Decided) -> Option<String> {
-    let Asked {
-        proved, refuted, ..
-    } = asked;
-    Some(match &decided.finding.verdict {
-        Verdict::Proved(_) => (*proved).to_owned(),
-        Verdict::Conditional { .. } => format!("{proved} where {}", condition(decided)),
-        Verdict::Refuted(found) => format!("{refuted}: {}", first(study, &found.detail)),
-        Verdict::Numerical(_) => format!("{proved}, by numbers"),
-        Verdict::NotApplicable { .. } => {
-            format!(
-                "nothing to decide: {}",
-                first(study, decided.finding.verdict.detail())
-            )
+/// What merely holds takes one line.
+fn together(asked: &Asked, proved: &[&Decided]) -> Option<String> {
+    let names: Vec<&str> = (proved.iter())
+        .filter_map(|d| d.subject.as_deref())
+        .collect();
+    match names.len() {
+        0 => None,
+        1 => Some(format!("{}: {}", names[0], asked.proved)),
+        _ => Some(format!("{}: {}", names.join(", "), asked.all_proved)),
+    }
+}
+
+/// What does not hold, or not everywhere, with the reason; what is not decided is told with all else that is not.
+fn alone(study: &Study, asked: &Asked, decided: &Decided) -> Option<String> {
+    let words = match &decided.finding.verdict {
+        Verdict::Conditional { .. } => format!("{} where {}", asked.proved, condition(decided)),
+        Verdict::Refuted(found) => {
+            format!("{}: {}", asked.refuted, first(study, &found.detail))
         }
-        Verdict::Undecided { .. } => return None,
-    })
+        Verdict::Numerical(_) => format!("{}, by numbers", asked.proved),
+        Verdict::NotApplicable { detail, .. } => {
+            format!("nothing to decide: {}", first(study, detail))
+        }
+        Verdict::Proved(_) | Verdict::Undecided { .. } => return None,
+    };
+    Some(format!("{}: {words}", decided.subject.as_deref()?))
 }
