@@ -539,14 +539,8 @@ class Trajectory(Result):
 
     Attributes
     ----------
-    t : array of shape (rows,)
-        The times.
-    y : array of shape (rows, columns)
-        All columns, in the order of ``names``.
     names : list of str
         Names of the columns: ``t``, coordinates, velocities, accelerations, multipliers, ``energy``, integrals.
-    verdicts : list of Verdict
-        What was decided of the motion.
     """
 
     def __init__(
@@ -662,14 +656,14 @@ class Trajectory(Result):
 
     @property
     def drift(self) -> dict[str, float | None]:
-        """Largest changes of constraints, energy and integrals along the motion, absolute: in the units of what is named; :attr:`scales` are
-        what to hold them against."""
+        """Largest changes of constraints, energy and integrals along the motion, absolute and in the units of what is named. What to hold them
+        against stands in :attr:`scales`."""
         return {own["name"]: own["value"] for own in self._data["drifts"]}
 
     @property
     def scales(self) -> dict[str, float]:
-        """Largest magnitudes along the motion of what :attr:`drift` names and the columns have: ``motion.drift["energy"] / motion.scales["energy"]``
-        is the relative change."""
+        """Largest magnitudes along the motion of what :attr:`drift` names and the columns have, so that
+        ``motion.drift["energy"] / motion.scales["energy"]`` is the relative change."""
         import numpy as np
 
         return {name: float(np.max(np.abs(self[name]))) for name in self.drift if name in self.names}

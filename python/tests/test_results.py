@@ -250,6 +250,8 @@ def test_ctrl_c_ends_long_work(work: str) -> None:
         import os, signal, threading, time
         import numpy as np
         from chetaev import System
+        # What runs in the background may have been started with interrupts ignored.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         motion = System.from_gallery("chaplygin-sleigh").simulate(t_end=5)
         f = motion._system.compile()
         f.jac(0.0, np.zeros(6))

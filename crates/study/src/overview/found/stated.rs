@@ -46,11 +46,10 @@ pub(super) fn found(study: &Study) -> Option<Found> {
     for asked in ASKED {
         let all = study.verdicts.iter();
         let all = all.filter(|d| d.claim == asked.claim && d.subject.is_some());
-        let (proved, others): (Vec<&Decided>, Vec<&Decided>) =
-            all.partition(|d| matches!(d.finding.verdict, Verdict::Proved(_)));
-        claims.extend(proved.iter().chain(&others).map(|d| d.full_id()));
-        sentences.extend(together(&asked, &proved));
-        sentences.extend(others.iter().filter_map(|d| alone(study, &asked, d)));
+        let all: Vec<&Decided> = all.collect();
+        claims.extend(all.iter().map(|d| d.full_id()));
+        sentences.extend(true_ones(&asked, &all));
+        sentences.extend(all.iter().filter_map(|d| other(study, &asked, d)));
     }
     (!sentences.is_empty()).then_some(Found {
         subject: "stated",
@@ -59,22 +58,34 @@ pub(super) fn found(study: &Study) -> Option<Found> {
     })
 }
 
-/// What merely holds takes one line.
-fn together(asked: &Asked, proved: &[&Decided]) -> Option<String> {
-    let names: Vec<&str> = (proved.iter())
-        .filter_map(|d| d.subject.as_deref())
-        .collect();
-    match names.len() {
-        0 => None,
-        1 => Some(format!("{}: {}", names[0], asked.proved)),
-        _ => Some(format!("{}: {}", names.join(", "), asked.all_proved)),
+/// What is true, and what is true on one condition, takes one line together.
+fn true_ones(asked: &Asked, all: &[&Decided]) -> Vec<String> {
+    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+    for decided in all {
+        let place = match &decided.finding.verdict {
+            Verdict::Proved(_) => String::new(),
+            Verdict::Conditional { .. } => format!(" where {}", condition(decided)),
+            _ => continue,
+        };
+        let name = decided.subject.as_deref().unwrap_or_default();
+        match groups.iter_mut().find(|group| group.0 == place) {
+            Some(group) => group.1.push(name),
+            None => groups.push((place, vec![name])),
+        }
     }
+    let words = |names: &[&str]| match names {
+        [_] => asked.proved,
+        _ => asked.all_proved,
+    };
+    let groups = groups.iter();
+    let sentences =
+        groups.map(|(place, names)| format!("{}: {}{place}", names.join(", "), words(names)));
+    sentences.collect()
 }
 
-/// What does not hold, or not everywhere, with the reason; what is not decided is told with all else that is not.
-fn alone(study: &Study, asked: &Asked, decided: &Decided) -> Option<String> {
+/// What is not true, with the reason; what is not decided is told with all else that is not.
+fn other(study: &Study, asked: &Asked, decided: &Decided) -> Option<String> {
     let words = match &decided.finding.verdict {
-        Verdict::Conditional { .. } => format!("{} where {}", asked.proved, condition(decided)),
         Verdict::Refuted(found) => {
             format!("{}: {}", asked.refuted, first(study, &found.detail))
         }
@@ -82,7 +93,9 @@ fn alone(study: &Study, asked: &Asked, decided: &Decided) -> Option<String> {
         Verdict::NotApplicable { detail, .. } => {
             format!("nothing to decide: {}", first(study, detail))
         }
-        Verdict::Proved(_) | Verdict::Undecided { .. } => return None,
+        Verdict::Proved(_) | Verdict::Conditional { .. } | Verdict::Undecided { .. } => {
+            return None
+        }
     };
     Some(format!("{}: {words}", decided.subject.as_deref()?))
 }
