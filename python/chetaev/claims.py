@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from typing import Any
 
 from . import chetaev_native as native
@@ -57,36 +58,22 @@ def verify(
     if independent:
         said, agrees = _examined(text)
         return Verification(json.loads(said), agrees)
-    said, agrees = native.verify(text, budget)
-    lines = json.loads(said)
-    if isinstance(record, (str, os.PathLike)):
-        beside = _beside(json.loads(text)["files"], os.path.dirname(os.fspath(record)))
-        lines += beside
-        agrees = agrees and all(own["result"] != "DISAGREES" for own in beside)
-    return Verification(lines, agrees)
+    beside = _checksums(os.path.dirname(os.fspath(record))) if isinstance(record, (str, os.PathLike)) else None
+    said, agrees = native.verify(text, budget, None, beside)
+    return Verification(json.loads(said), agrees)
 
 
-def _beside(files: list[dict[str, str]], folder: str) -> list[dict[str, str]]:
-    """Whether the files beside a record are those that were written with it."""
+def _checksums(folder: str) -> Callable[[str], str | None]:
+    """The SHA-256 of files of a folder by their names, ``None`` where one cannot be read."""
 
-    def said(name: str, digest: str) -> tuple[str, str]:
-        # A record may come from anybody; it names files beside itself only.
-        if os.path.basename(name) != name or name in ("", ".", ".."):
-            return "DISAGREES", "replay finds no file name: files of a record lie beside it"
+    def checksum(name: str) -> str | None:
         try:
             with open(os.path.join(folder, name), "rb") as file:
-                found = hashlib.sha256(file.read()).hexdigest()
+                return hashlib.sha256(file.read()).hexdigest()
         except OSError:
-            return "remark", "it is not beside the record, or cannot be read"
-        if found == digest:
-            return "confirmed", ""
-        return "DISAGREES", f"replay finds {found}: the content is not what was written with this record"
+            return None
 
-    lines = []
-    for own in files:
-        result, detail = said(own["name"], own["sha256"])
-        lines.append({"claim": own["name"], "recorded": "sha256", "result": result, "detail": detail})
-    return lines
+    return checksum
 
 
 def _examined(record: str) -> tuple[str, bool]:

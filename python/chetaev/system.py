@@ -613,26 +613,8 @@ class System:
             Shows the bodies at so many earlier times too.
         width, height : int
             Width and greatest height in pixels.
-        progress : bool
-            Whether a progress bar is shown.
-        t_end : expression, optional
-            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
-        tolerance : float, optional
-            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
-        step : expression, optional
-            Fixed step, in the unit of time.
-        method : str, optional
-            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
-        precision : str, optional
-            ``double`` or ``double-double``.
-        formulation : str, optional
-            The formulation whose equations are integrated.
-        project : bool
-            Moves inadmissible initial data to the nearest admissible state.
-        keep_integrals : bool
-            Keeps the first integrals that are found, by projection.
-        branch : int, optional
-            Which branch of the motion is followed, from 1, where there are several.
+        progress, t_end, tolerance, step, method, precision, formulation, project, keep_integrals, branch
+            As in :meth:`simulate`.
 
         Returns
         -------
@@ -675,26 +657,8 @@ class System:
             How long the film is; as long as the motion, from 2 to 20 seconds, when left out.
         width, height : int
             Width and greatest height in pixels.
-        progress : bool
-            Whether a progress bar is shown.
-        t_end : expression, optional
-            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
-        tolerance : float, optional
-            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
-        step : expression, optional
-            Fixed step, in the unit of time.
-        method : str, optional
-            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
-        precision : str, optional
-            ``double`` or ``double-double``.
-        formulation : str, optional
-            The formulation whose equations are integrated.
-        project : bool
-            Moves inadmissible initial data to the nearest admissible state.
-        keep_integrals : bool
-            Keeps the first integrals that are found, by projection.
-        branch : int, optional
-            Which branch of the motion is followed, from 1, where there are several.
+        progress, t_end, tolerance, step, method, precision, formulation, project, keep_integrals, branch
+            As in :meth:`simulate`.
 
         Returns
         -------
@@ -739,26 +703,8 @@ class System:
             Folder to write the report, the record and the trajectory into; with ``compare``.
         budget : float
             Work for all claims together, in seconds of a usual machine.
-        progress : bool
-            Whether a progress bar is shown.
-        t_end : expression, optional
-            End of the run, in the unit of time; that of the model, or 10 after the start, when left out.
-        tolerance : float, optional
-            Relative tolerance of the local error, from 2.3e-14 to 0.1; that of the model, or 1e-10, when left out.
-        step : expression, optional
-            Fixed step, in the unit of time.
-        method : str, optional
-            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
-        precision : str, optional
-            ``double`` or ``double-double``.
-        formulation : str, optional
-            The formulation whose equations are integrated.
-        project : bool
-            Moves inadmissible initial data to the nearest admissible state.
-        keep_integrals : bool
-            Keeps the first integrals that are found, by projection.
-        branch : int, optional
-            Which branch of the motion is followed, from 1, where there are several.
+        progress, t_end, tolerance, step, method, precision, formulation, project, keep_integrals, branch
+            As in :meth:`simulate`.
 
         Returns
         -------

@@ -186,8 +186,8 @@ fn backward(l: &[f64], x: &mut [f64]) {
     }
 }
 
-/// `x` with least `|A x - f|`, A row by row with `size` columns, by the normal equations.
-pub(crate) fn least_squares(a: &[f64], f: &[f64], size: usize, all: &[usize]) -> Vec<f64> {
+/// `x` with least `|A x - f|`, A row by row with `size` columns, by the normal equations; of several the shortest. `all` are the columns that count.
+pub fn least_squares(a: &[f64], f: &[f64], size: usize, all: &[usize]) -> Vec<f64> {
     let mut normal = vec![0.0; size * size];
     let mut right = vec![0.0; size];
     for (row, &value) in a.chunks(size.max(1)).zip(f) {

@@ -47,6 +47,7 @@ pub mod watch;
 pub use double_double::{DoubleDouble, Precise, PreciseRows};
 pub use happening::{EventWatched, Happened};
 pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};
+pub use least_norm::least_squares;
 pub use multiplier_flow::StateKind;
 pub use numeric::{Binding, NumericError, NumericSystem};
 pub use repeat::{CompiledRouth, RouthCourse, SideBySide};

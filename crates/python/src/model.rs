@@ -750,16 +750,18 @@ pub(crate) fn explain(py: Python<'_>, claim: Option<&str>) -> PyResult<(String, 
     Ok((said, data.to_string()))
 }
 
-/// Replays the verdicts of a record within a budget; the lines as JSON, and whether all agree.
+/// Replays the verdicts of a record within a budget, and holds the files beside it against their checksums where a function from names to these
+/// is given; the lines as JSON, and whether all agree.
 #[pyfunction]
-#[pyo3(signature = (record, budget, tell=None))]
+#[pyo3(signature = (record, budget, tell=None, checksum=None))]
 pub(crate) fn verify(
     py: Python<'_>,
     record: &str,
     budget: f64,
     tell: Option<&Bound<'_, PyAny>>,
+    checksum: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, bool)> {
-    use chetaev::study::verify::{agrees, read, verify, Verified, VerifyError};
+    use chetaev::study::verify::{agrees, files, read, verify, Verified, VerifyError};
     let wrong = |problem: VerifyError| match problem {
         VerifyError::Study(StudyError::Interrupted) => PyKeyboardInterrupt::new_err(()),
         problem => problem::of_option(py, &problem),
@@ -769,7 +771,20 @@ pub(crate) fn verify(
     if found.interrupted {
         return Err(PyKeyboardInterrupt::new_err(()));
     }
-    let lines = found.result.map_err(wrong)?;
+    let mut lines = found.result.map_err(wrong)?;
+    if let Some(checksum) = checksum {
+        let mut failure = None;
+        lines.extend(files(&record, &mut |name| {
+            let found = checksum.call1((name,)).and_then(|own| own.extract());
+            found.unwrap_or_else(|problem| {
+                failure = Some(problem);
+                None
+            })
+        }));
+        if let Some(problem) = failure {
+            return Err(problem);
+        }
+    }
     let data: Vec<serde_json::Value> = lines.iter().map(Verified::to_json).collect();
     Ok((serde_json::json!(data).to_string(), agrees(&lines)))
 }

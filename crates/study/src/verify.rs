@@ -1,8 +1,11 @@
 //! Replays the verdicts of a record from the embedded model (T6 §6.6).
 
+mod files;
 mod notices;
 mod texts;
 mod trajectory;
+
+pub use files::files;
 
 use crate::error::StudyError;
 use crate::options::{ClaimSelection, Hooks, StudyOptions};

@@ -6,10 +6,8 @@ use super::{error, interrupted, with_hooks};
 use crate::arguments::Verify as Arguments;
 use crate::files::checksum_of;
 use crate::{terminal, DONE, INPUT, STOPPED, UNMET};
-use chetaev::study::record::{Record, WrittenRecord};
-use chetaev::study::verify::{agrees, read, verify, Replay, Verified, VerifyError};
+use chetaev::study::verify::{agrees, files, read, verify, Replay, Verified, VerifyError};
 use chetaev::study::StudyError;
-use std::ffi::OsStr;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
@@ -30,7 +28,8 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let budget = arguments.budget;
     let lines = read(text).and_then(|record| {
         let mut lines = with_hooks(|hooks| verify(&record, budget, hooks))?;
-        lines.extend(files(&record, &arguments.record));
+        let folder = arguments.record.parent().unwrap_or(Path::new(""));
+        lines.extend(files(&record, &mut |name| checksum_of(&folder.join(name))));
         Ok(lines)
     });
     match lines {
@@ -55,38 +54,6 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             INPUT
         }
     }
-}
-
-/// The files beside the record are those that were written with it.
-fn files(record: &Record, path: &Path) -> Vec<Verified> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let line = |file: &WrittenRecord| {
-        // A record may come from anybody; it names files beside itself only.
-        let is_plain = Path::new(&file.name).file_name() == Some(OsStr::new(&file.name));
-        let found = is_plain
-            .then(|| checksum_of(&folder.join(&file.name)))
-            .flatten();
-        let replay = match found {
-            _ if !is_plain => Replay::Differs {
-                found: "no file name".into(),
-                detail: "files of a record lie beside it".into(),
-            },
-            None => Replay::Remark {
-                what: "it is not beside the record, or cannot be read".into(),
-            },
-            Some(found) if found == file.sha256 => Replay::Confirmed,
-            Some(found) => Replay::Differs {
-                found,
-                detail: "the content is not what was written with this record".into(),
-            },
-        };
-        Verified {
-            claim: file.name.clone(),
-            recorded: "sha256".into(),
-            replay,
-        }
-    };
-    record.files.iter().map(line).collect()
 }
 
 fn report(lines: &[Verified], json: bool) {

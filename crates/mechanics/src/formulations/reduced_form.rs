@@ -145,25 +145,10 @@ fn row(system: &System, c: &Characteristics, own: &ReducedEquations, s: usize) -
     }
     let options = Options::default();
     let whole = without_factors(system, c, simplify(g, difference, &options));
-    let at_rest: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
-    let right = simplify(g, g.neg(g.substitute(whole, &at_rest)), &options);
-    let symbols: Vec<Symbol> = c.parameters.iter().map(|p| p.rate_symbol).collect();
-    let slopes = g.gradient(whole, &symbols);
-    let product = |m: Expr, rate: Expr| g.mul(&[simplify(g, m, &options), rate]);
-    let sum = |of: &dyn Fn(Expr) -> Expr| {
-        let slopes = slopes.iter().zip(&c.parameters);
-        let slopes = slopes.filter(|(&m, _)| !g.is_zero(m));
-        g.add(
-            &slopes
-                .map(|(&m, p)| product(of(m), p.rate))
-                .collect::<Vec<_>>(),
-        )
-    };
-    let short = match (sum(&|m| m), right) {
-        (left, right) if g.text(left).starts_with('-') => {
-            (sum(&|m| g.neg(m)), simplify(g, g.neg(right), &options))
-        }
-        sides => sides,
+    let short = match sides(system, c, whole) {
+        // No equation begins with a minus.
+        (left, _) if g.text(left).starts_with('-') => sides(system, c, g.neg(whole)),
+        short => short,
     };
     let stated = (left, own.force[s]);
     let count = |(left, right): (Expr, Expr)| {
@@ -175,6 +160,20 @@ fn row(system: &System, c: &Characteristics, own: &ReducedEquations, s: usize) -
     } else {
         short
     }
+}
+
+/// What is linear in the rates and vanishes, with the rates on the left.
+fn sides(system: &System, c: &Characteristics, whole: Expr) -> (Expr, Expr) {
+    let (g, options) = (&system.graph, Options::default());
+    let at_rest: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
+    let right = simplify(g, g.neg(g.substitute(whole, &at_rest)), &options);
+    let symbols: Vec<Symbol> = c.parameters.iter().map(|p| p.rate_symbol).collect();
+    let slopes = g.gradient(whole, &symbols).into_iter().zip(&c.parameters);
+    let slopes = slopes.filter(|(m, _)| !g.is_zero(*m));
+    let left: Vec<Expr> = slopes
+        .map(|(m, p)| g.mul(&[simplify(g, m, &options), p.rate]))
+        .collect();
+    (g.add(&left), right)
 }
 
 /// A product without the factors that contain no rate and vanish nowhere, and without what is below it.

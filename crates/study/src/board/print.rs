@@ -85,13 +85,13 @@ fn typeset(system: &System, board: &Board) -> String {
 fn prose(words: &str) -> String {
     let words: Vec<&str> = words.split(' ').collect();
     let groups = words.chunk_by(|a, b| is_formula(a) == is_formula(b) && !ends_a_clause(a));
-    let groups = groups.map(|group| match is_formula(group[0]) {
-        false => escaped(&group.join(" ")),
-        true => {
-            let all = group.join(" ");
-            let own = all.trim_end_matches(PUNCTUATION);
-            format!("${}${}", mathematics(own), &all[own.len()..])
+    let groups = groups.map(|group| {
+        let all = group.join(" ");
+        if !is_formula(group[0]) {
+            return escaped(&all);
         }
+        let own = all.trim_end_matches(PUNCTUATION);
+        format!("${}${}", mathematics(own), &all[own.len()..])
     });
     groups.collect::<Vec<_>>().join(" ")
 }

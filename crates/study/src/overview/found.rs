@@ -1,7 +1,7 @@
 //! What was found of a system, in sentences for a person, with the claims that say more.
 
 mod integrals;
-mod stated;
+mod statements;
 mod steady;
 
 use crate::plain;
@@ -35,7 +35,7 @@ impl Found {
 pub fn found(study: &Study) -> Vec<Found> {
     let mut all = Vec::new();
     all.extend(values(study));
-    all.extend(stated::found(study));
+    all.extend(statements::found(study));
     all.extend(constraints(study));
     all.extend(order(study));
     all.extend(energy(study));

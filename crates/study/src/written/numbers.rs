@@ -7,6 +7,7 @@ use crate::StudyError;
 use chetaev_mechanics::equations::StateVariable;
 use chetaev_mechanics::{Context, System};
 use chetaev_model::Model;
+use chetaev_motion::least_squares;
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
 
@@ -146,52 +147,11 @@ impl<'a> Numbers<'a> {
             return None;
         }
         let rest = value(&equations.velocities)?;
-        let k = symbols.len();
-        let (mut matrix, mut right) = (vec![vec![0.0; k]; k], vec![0.0; k]);
-        for ((c, row), rest) in system.coordinates.iter().zip(&slopes).zip(rest) {
-            let given = self.value(c.v_symbol)?;
-            let row = value(row)?;
-            for i in 0..k {
-                right[i] += row[i] * (given - rest);
-                for j in 0..k {
-                    matrix[i][j] += row[i] * row[j];
-                }
-            }
-        }
-        Some(least(matrix, right))
+        let given = system.coordinates.iter().map(|c| self.value(c.v_symbol));
+        let given: Vec<f64> = given.collect::<Option<_>>()?;
+        let right: Vec<f64> = given.iter().zip(rest).map(|(v, rest)| v - rest).collect();
+        let all: Vec<usize> = (0..symbols.len()).collect();
+        let matrix = value(&slopes.concat())?;
+        Some(least_squares(&matrix, &right, symbols.len(), &all))
     }
-}
-
-/// A solution of a symmetric system that is not negative; what nothing determines is zero.
-fn least(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
-    let k = right.len();
-    let size = matrix.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let mut taken = vec![false; k];
-    for _ in 0..k {
-        let open = (0..k).filter(|&i| !taken[i]);
-        let Some(pivot) = open.max_by(|&a, &b| matrix[a][a].total_cmp(&matrix[b][b])) else {
-            break;
-        };
-        if matrix[pivot][pivot] <= 1e-12 * size {
-            break;
-        }
-        taken[pivot] = true;
-        let own = (matrix[pivot].clone(), right[pivot]);
-        for i in (0..k).filter(|&i| i != pivot) {
-            let factor = matrix[i][pivot] / own.0[pivot];
-            for (entry, other) in matrix[i].iter_mut().zip(&own.0) {
-                *entry -= factor * other;
-            }
-            right[i] -= factor * own.1;
-        }
-    }
-    (0..k)
-        .map(|i| {
-            if taken[i] {
-                right[i] / matrix[i][i]
-            } else {
-                0.0
-            }
-        })
-        .collect()
 }

@@ -268,17 +268,19 @@ impl Latex<'_> {
 
     /// In parentheses where it holds together less tightly than it has to.
     fn spread_group(&self, e: &Formula, least: Strength, depth: u32, out: &mut Vec<Piece>) {
-        match e.strength() {
-            own if own >= least => self.spread(e, depth + 1, out),
-            _ => self.fenced(e, depth, "", out),
+        if e.strength() >= least {
+            self.spread(e, depth + 1, out);
+        } else {
+            self.fenced(e, depth, "", out);
         }
     }
 
     /// In parentheses whose size does not depend on what stands on the same line.
     fn fenced(&self, e: &Formula, depth: u32, after: &str, out: &mut Vec<Piece>) {
-        let (open, close) = match e.is_tall() {
-            true => ("\\Bigl(", "\\Bigr)"),
-            false => ("(", ")"),
+        let (open, close) = if e.is_tall() {
+            ("\\Bigl(", "\\Bigr)")
+        } else {
+            ("(", ")")
         };
         add(out, open, 1.0);
         self.spread(e, depth + 1, out);
