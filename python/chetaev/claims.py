@@ -23,6 +23,11 @@ def explain(claim: str | None = None) -> Explanation:
     ----------
     claim : str, optional
         An id such as ``energy.integral`` or ``formulation.equivalent#maggi``.
+
+    Returns
+    -------
+    Explanation
+        Its text, and the data of ``chetaev explain --json``.
     """
     text, data = native.explain(claim)
     return Explanation(json.loads(data), text)
@@ -42,6 +47,11 @@ def verify(
     independent : bool
         Lets the checker examine the record instead: a program in Python that knows the theory and the record, and nothing of what
         decided. It runs as a process of its own, and needs Python 3.11.
+
+    Returns
+    -------
+    Verification
+        What is said of each verdict; ``agrees`` says whether nothing disagrees.
 
     Examples
     --------

@@ -123,7 +123,22 @@ class Compiled:
         return self.rhs.is_native
 
     def __call__(self, y: ArrayLike, t: ArrayLike = 0.0, out: Any = None) -> NDArray[np.float64]:
-        """The rates of one state, or of many."""
+        """The rates of one state, or of many.
+
+        Parameters
+        ----------
+        y : array of shape (..., n)
+            States, in the order of ``state``, in SI units.
+        t : float or array of shape (...)
+            Times.
+        out : array of shape (..., n), optional
+            Where the rates are written.
+
+        Returns
+        -------
+        array of shape (..., n)
+            The rates, in SI units per second.
+        """
         return self.rhs(t, y, out)
 
     def __reduce__(self) -> tuple[Any, ...]:

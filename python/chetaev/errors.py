@@ -5,14 +5,24 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from .keywords import in_python, of_data
+
 
 class ChetaevError(Exception):
-    """Anything that Chetaev refuses."""
+    """Anything that Chetaev refuses.
+
+    Attributes
+    ----------
+    rendered : str
+        What it prints.
+    diagnostics : list of dict
+        Problems of a model, as ``chetaev check --json`` writes them, with keywords in the place of options; empty where it is none of a model.
+    """
 
     def __init__(self, rendered: str, data: str = "[]") -> None:
         super().__init__(rendered, data)
-        self.rendered = rendered.rstrip()
-        self.diagnostics: list[dict[str, Any]] = json.loads(data)
+        self.rendered = in_python(rendered.rstrip())
+        self.diagnostics: list[dict[str, Any]] = of_data(json.loads(data))
 
     def __str__(self) -> str:
         return self.rendered
@@ -24,7 +34,7 @@ class ModelError(ChetaevError, ValueError):
     Attributes
     ----------
     diagnostics : list of dict
-        All problems, as ``chetaev check --json`` writes them.
+        All problems, as ``chetaev check --json`` writes them, with keywords in the place of options.
     file, line, column, text, hint
         Of the first error: name of the file, line and column from 1, the offending text, and the first advice; ``None`` where there is none.
     """
@@ -81,7 +91,13 @@ class ModelWarning(UserWarning):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C ended a computation; ``result`` is what there was."""
+    """Ctrl-C ended a computation.
+
+    Attributes
+    ----------
+    result : Trajectory, Study or Sweep
+        What there was.
+    """
 
     def __init__(self, result: Any) -> None:
         super().__init__("interrupted; what was computed is in the attribute `result` of this exception")

@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .errors import NotDerivedError
+from .trees import nodes, replaced
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .chetaev_native import Model
+    from .results import Formulation
     from .system import System
 
 
@@ -19,6 +24,8 @@ class Exported:
 
     Attributes
     ----------
+    source : str
+        The text of the function, as ``derive --as python`` writes it.
     rhs : f(t, y, p)
         The rates of the state y for the parameters p.
     state : list of str
@@ -28,11 +35,14 @@ class Exported:
         controls without a law and their derivatives, which have no values.
     p : array of shape (parameters,)
         These values.
+    formulation : str
+        Whose equations these are.
     start : array of shape (n,)
         The state from which ``simulate`` starts, in this order; not a number where the model determines none.
     """
 
-    def __init__(self, source: str, library: Any, names: tuple[list[str], list[str]]) -> None:
+    def __init__(self, source: str, library: Any, names: tuple[list[str], list[str]], formulation: str) -> None:
+        self.formulation = formulation
         space: dict[str, Any] = {}
         # The text begins with the import of NumPy, of which only these two arrays are made.
         exec(compile(source, "<chetaev>", "exec"), space)
@@ -46,6 +56,42 @@ class Exported:
 
     def __repr__(self) -> str:
         return f"<rhs(t, y, p): y = ({', '.join(self.state)}), p = ({', '.join(self.parameters)})>"
+
+
+#: Forms of the equations in which functions are written, the shortest first.
+_FORMS = ("reduced", "maggi", "routh", "gibbs-appell")
+
+
+def regular_form(model: Model) -> tuple[str, str]:
+    """The first form of the equations that has numbers where the motion starts, with its function; the first of all where none has, or where a value
+    is missing."""
+    first: tuple[str, str] | None = None
+    for name in _FORMS:
+        try:
+            source = model.derive([name], False, "python")[0]
+        except NotDerivedError:
+            continue
+        first = first or (name, source)
+        if _is_regular(source, model):
+            return name, source
+    if first is None:
+        raise NotDerivedError("no form of the equations can be written as a function")
+    return first
+
+
+def _is_regular(source: str, model: Model) -> bool:
+    space: dict[str, Any] = {}
+    exec(compile(source, "<chetaev>", "exec"), space)
+    start, parameters = space["start"], space["parameters"]
+    if not (np.all(np.isfinite(start)) and np.all(np.isfinite(parameters))):
+        # Nothing can be said, and another form has no more numbers.
+        return True
+    with np.errstate(all="ignore"):
+        try:
+            rates = space["rhs"](model.start()[0], start, parameters)
+        except (np.linalg.LinAlgError, ZeroDivisionError):
+            return False
+    return bool(np.all(np.isfinite(rates)))
 
 
 def jax_library() -> Any:
@@ -92,11 +138,15 @@ class Residuals:
 
     Attributes
     ----------
-    equations : sympy.Matrix of shape (states, 1)
-        Expressions in the states, their derivatives, the inputs, the parameters and the time.
+    equations : sympy.Matrix of shape (states + unknowns, 1)
+        Expressions in the states, their derivatives, the unknowns, the inputs, the parameters and the time.
     states : list of sympy functions of the time
         Coordinates, then speeds, then masses with a law of their own. A velocity that is a speed itself is called as its coordinate, with
         ``_dot`` behind.
+    unknowns : list of sympy functions of the time
+        The multipliers of the constraints, where the shortest equations share linear systems, as those of a bicycle do: then these are Routh's
+        equations with all velocities as speeds, and the constraints are the last of the equations. opty finds these functions as it finds inputs.
+        Other systems have none.
     inputs : list of sympy functions of the time
         Controls without a law, which opty finds.
     parameters : dict from sympy symbols to float
@@ -108,79 +158,63 @@ class Residuals:
     def __init__(self, system: System) -> None:
         import sympy as sp
 
-        derived = system.derive("reduced")
-        found = derived._in_sympy()["reduced"]
-        shared = _shared([own for title, rows in found.items() if title.endswith(": linear systems") for own in rows])
-        titles = ("equations of motion", "kinematics", "masses")
-        rows = [own.lhs - own.rhs for title in titles for own in found.get(title, [])]
-        rows = [own.xreplace(shared) for own in rows]
-        time = next(own for row in rows for own in row.atoms(sp.Derivative)).variables[0]
+        derived, found = _stated(system)
+        rows = [own.lhs - own.rhs for title in ("equations of motion", "kinematics", "masses", "constraints") for own in found.get(title, [])]
+        time = next(own for own in nodes(rows) if isinstance(own, sp.Derivative)).variables[0]
 
         def function(name: str) -> Any:
             return sp.Function(name, real=True)(time)
 
+        multipliers = {f"lambda_{name}" for name in system.constraints} if derived.name == "routh" else set()
+        met = {own.name: own for own in nodes(rows) if isinstance(own, sp.Symbol) and own.name in multipliers}
+        unknowns = {own: function(name) for name, own in sorted(met.items())}
+        whole, added = replaced(rows, unknowns), []
+        count = len(rows) - len(found["constraints"]) if unknowns else len(rows)
         speeds = []
-        for name in derived[0].state:
+        for name in derived.state:
             if name.endswith("'"):
                 place, speed = function(name[:-1]), function(f"{name[:-1]}_dot")
                 rate = place.diff(time)
-                rows = [own.xreplace({place.diff(time, 2): speed.diff(time)}).xreplace({rate: speed}) for own in rows]
-                rows.append(rate - speed)
+                whole = replaced(replaced(whole, {place.diff(time, 2): speed.diff(time)}), {rate: speed})
+                added.append(rate - speed)
                 speeds.append(speed)
             else:
                 speeds.append(function(name))
         masses = [own.lhs.expr for own in found.get("masses", [])]
         states = [function(name) for name in system.coordinates] + speeds + masses
         follow = system.following
-        values = dict(zip(follow, _plain(system, list(follow.values()))))
-        own = {symbol: values[symbol.name] for row in rows for symbol in row.free_symbols if symbol.name in values}
-        equations = sp.Matrix([row.xreplace(own) for row in rows])
-        symbols = sorted(equations.free_symbols - {time}, key=str)
+        values = dict(zip(follow, system._in_sympy(list(follow.values()))))
+        whole = [*whole[:count], *added, *whole[count:]]
+        symbols = [own for own in nodes(whole) if isinstance(own, sp.Symbol)]
+        whole = replaced(whole, {own: values[own.name] for own in symbols if own.name in values})
+        parts = nodes(whole)
         known = {name: value for name, value in system.parameters.items() if value is not None}
-        numbers = dict(zip(known, map(float, _plain(system, list(known.values())))))
-        inputs = sorted(equations.atoms(sp.core.function.AppliedUndef) - set(states), key=str)
+        numbers = dict(zip(known, map(float, system._in_sympy(list(known.values())))))
+        free = sorted((own for own in parts if isinstance(own, sp.Symbol) and own.name in numbers), key=str)
+        given = {*states, *unknowns.values()}
+        inputs = sorted((own for own in parts if isinstance(own, sp.core.function.AppliedUndef) and own not in given), key=str)
         back = system._own.back if system._own is not None else lambda own: own
         self.time: Any = back(time)
         self.states: list[Any] = [back(own) for own in states]
+        self.unknowns: list[Any] = list(unknowns.values())
         self.inputs: list[Any] = [back(own) for own in inputs]
-        self.equations: Any = equations.applyfunc(back)
-        self.parameters: dict[Any, float] = {back(own): numbers[own.name] for own in symbols if own.name in numbers}
+        self.equations: Any = sp.Matrix([back(own) for own in whole])
+        self.parameters: dict[Any, float] = {back(own): numbers[own.name] for own in free}
 
     def __repr__(self) -> str:
-        return f"<{len(self.states)} residuals of {', '.join(own.func.__name__ for own in self.states)}>"
+        return f"<{self.equations.rows} residuals of {', '.join(own.func.__name__ for own in self.states)}>"
 
 
-def _plain(system: System, texts: list[str]) -> list[Any]:
-    """Texts of the model in SymPy, with the names of the model."""
-    space: dict[str, Any] = {}
-    exec(compile(system._native.sympy(texts), "<chetaev>", "exec"), space)
-    return list(space["found"]["all"])
-
-
-def _shared(equations: list[Any]) -> dict[Any, Any]:
-    """Solutions of linear systems that equations share, one after the other: each may have those before it in its coefficients."""
-    import sympy as sp
-
-    known: dict[Any, Any] = {}
-    open_rows = [own.lhs - own.rhs for own in equations]
-    names = {own for row in open_rows for own in _unknowns(row)}
-    while open_rows:
-        first = min(range(len(open_rows)), key=lambda at: len(_unknowns(open_rows[at]) - set(known)))
-        block, own = [], _unknowns(open_rows[first]) - set(known)
-        for row in open_rows:
-            if _unknowns(row) - set(known) <= own:
-                block.append(row)
-        if len(block) != len(own):
-            raise NotImplementedError("the shortest equations share solutions of linear systems that stand in no residual")
-        ordered = sorted(own, key=str)
-        matrix, right = sp.linear_eq_to_matrix([row.xreplace(known) for row in block], ordered)
-        known.update(zip(ordered, matrix.LUsolve(right)))
-        open_rows = [row for row in open_rows if row not in block]
-    assert names <= set(known)
-    return known
-
-
-def _unknowns(row: Any) -> set[Any]:
-    import sympy as sp
-
-    return {own for own in row.atoms(sp.Symbol) if own.name.startswith("reduced_s_")}
+def _stated(system: System) -> tuple[Formulation, dict[str, list[Any]]]:
+    """The equations of which residuals are made: the shortest; Routh's where these share linear systems, which opty would have to write out."""
+    for name in ("reduced", "routh"):
+        derived = system.derive(name)
+        found = derived._module().sections[name]
+        if name == "reduced":
+            used = ("equations of motion", "kinematics", "masses")
+        else:
+            # The formulas of the multipliers are not needed: they are unknowns.
+            used = ("equations of motion", "constraints", "masses")
+        if not any(f"{title}: linear systems" in found for title in used):
+            return derived[0], {title: found[title] for title in used if title in found}
+    raise NotImplementedError("the equations of this system share solutions of linear systems in every form that is tried: reduced, Routh's")

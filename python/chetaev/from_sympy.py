@@ -13,6 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from .errors import ModelWarning
 from .texts import known_functions, of_sympy
+from .trees import nodes, replaced
 
 #: Names that a model cannot declare.
 _RESERVED = set(
@@ -42,15 +43,13 @@ class Origins:
     def back(self, expression: Any) -> Any:
         """An expression of the model's names with the user's own symbols, functions and time."""
         found: dict[Any, Any] = {}
-        for own in expression.atoms(sp.Symbol):
-            if own.name == "t":
+        for own in nodes([expression]):
+            name = own.name if isinstance(own, sp.Symbol) else own.func.__name__ if isinstance(own, AppliedUndef) else None
+            if name == "t" and isinstance(own, sp.Symbol):
                 found[own] = self.time
-            elif own.name in self.objects:
-                found[own] = self.objects[own.name]
-        for own in expression.atoms(AppliedUndef):
-            if own.func.__name__ in self.objects:
-                found[own] = self.objects[own.func.__name__]
-        return expression.xreplace(found)
+            elif name in self.objects:
+                found[own] = self.objects[name]
+        return replaced([expression], found)[0]
 
     def text(self, expression: Any) -> str:
         """An expression of the user's objects in the notation of the model."""

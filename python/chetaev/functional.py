@@ -10,8 +10,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from . import chetaev_native as native
+from . import notebook
 from .claims import explain, verify
 from .errors import ModelWarning
+from .keywords import in_python
 from .results import Check, Explanation, Json, Result, Verdict, Verification, part_of, write
 from .system import Value, _pairs, _Progress, of_gallery, readable
 
@@ -69,7 +71,13 @@ class FieldEquations:
 
 
 class FieldDerivation(Result, Sequence[FieldEquations]):
-    """Euler equations, and the natural conditions on each piece of the boundary."""
+    """Euler equations, and the natural conditions on each piece of the boundary.
+
+    Attributes
+    ----------
+    parts : list of FieldEquations
+        The Euler equations, then the conditions, piece by piece.
+    """
 
     def __init__(self, functional: Functional, data: Json, text: str) -> None:
         super().__init__(data, text)
@@ -89,15 +97,38 @@ class FieldDerivation(Result, Sequence[FieldEquations]):
         return self.parts[0]
 
     def to(self, notation: str) -> str:
-        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy or json."""
+        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy or json.
+
+        Parameters
+        ----------
+        notation : str
+            ``text``, ``latex``, ``mathml``, ``sympy`` or ``json``.
+
+        Returns
+        -------
+        str
+            The text.
+        """
         return self._functional._native.derive(notation)
 
     def to_latex(self) -> str:
-        """A whole document."""
+        """A whole document.
+
+        Returns
+        -------
+        str
+            A text for a document with amsmath.
+        """
         return self.to("latex")
 
     def to_sympy(self) -> dict[str, list[Any]]:
-        """SymPy equations by the title of their part, exact. Derivatives are symbols of their own: ``u_1,12``."""
+        """SymPy equations by the title of their part, exact. Derivatives are symbols of their own: ``u_1,12``.
+
+        Returns
+        -------
+        dict from str to list of sympy expressions
+            What vanishes, by headings.
+        """
         space: dict[str, Any] = {}
         exec(compile(self.to("sympy"), "<chetaev>", "exec"), space)
         return {
@@ -148,22 +179,46 @@ class FunctionalStudy(Result):
     @property
     def notices(self) -> list[str]:
         """What a reader must know."""
-        return list(self._data["notices"])
+        return [in_python(own) for own in self._data["notices"]]
 
     def summary(self) -> str:
-        """The text that the command prints."""
+        """The text that the command prints, with keywords in the place of options.
+
+        Returns
+        -------
+        str
+            The text.
+        """
         return self._text
 
     def report(self) -> str:
-        """The report, one HTML page."""
+        """The report, one HTML page.
+
+        Returns
+        -------
+        str
+            HTML that needs nothing else.
+        """
         return self._page
 
     def save_report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report."""
+        """Writes the report.
+
+        Parameters
+        ----------
+        path : path
+            The .html to write.
+        """
         write(path, self._page.encode())
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes what the command writes: ``report.html``, and ``study.json`` with its checksum."""
+        """Writes what the command writes: ``report.html``, and ``study.json`` with its checksum.
+
+        Parameters
+        ----------
+        folder : path
+            A folder, which is made where there is none.
+        """
         import hashlib
 
         page = self._page.encode()
@@ -173,17 +228,27 @@ class FunctionalStudy(Result):
         write(os.path.join(folder, "study.json"), text.encode())
 
     def verify(self) -> Verification:
-        """Decides the record again from the texts in it."""
+        """Decides the record again from the texts in it.
+
+        Returns
+        -------
+        Verification
+            What is said of each verdict.
+        """
         return verify(self.to_dict())
 
     def render_static(self) -> str:
-        """HTML with the report inside, which exported notebooks keep."""
+        """HTML with the report inside, which exported notebooks keep.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
         return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
 
     def _html(self) -> str:
-        rows = "".join(own._row() for own in self.verdicts)
-        notes = "".join(f"<p>{html.escape(own)}</p>" for own in self.notices)
-        return f"<table>{rows}</table>{notes}"
+        return notebook.verdicts(self.verdicts) + "".join(map(notebook.paragraph, self.notices))
 
 
 class Functional:
@@ -226,6 +291,10 @@ class Functional:
         set : mapping, optional
             Other values of sizes and parameters, exactly, as ``--set``: ``{"d": 3}``.
 
+        Returns
+        -------
+        Functional
+
         Raises
         ------
         ModelError
@@ -250,6 +319,10 @@ class Functional:
             Where the text is thought to stand.
         set : mapping, optional
             Other values of sizes and parameters.
+
+        Returns
+        -------
+        Functional
         """
         place = None if path is None else os.fspath(path)
         return cls._of(native.Functional.from_text(text, place, _pairs(set)))
@@ -264,11 +337,25 @@ class Functional:
             ``elasticity/p4p``, ``fields/plate``, …
         set : mapping, optional
             Other values of sizes and parameters.
+
+        Returns
+        -------
+        Functional
         """
         return cls._of(native.Functional.from_texts(*of_gallery(name), _pairs(set)))
 
     def with_values(self, **values: Value) -> Functional:
-        """The same functional with other values of sizes and parameters."""
+        """The same functional with other values of sizes and parameters.
+
+        Parameters
+        ----------
+        **values : number, text, fraction or SymPy expression
+            By the names of sizes and parameters.
+
+        Returns
+        -------
+        Functional
+        """
         path, text, includes, overrides = self._native.texts()
         kept = [own for own in overrides if own[0] not in values]
         return self._of(native.Functional.from_texts(path, text, includes, kept + _pairs(values)))
@@ -278,6 +365,7 @@ class Functional:
 
     @property
     def name(self) -> str:
+        """Its name."""
         return self._native.name
 
     @property
@@ -313,12 +401,23 @@ class Functional:
         return f"<b>{html.escape(self.name)}</b><pre>{html.escape(self.text)}</pre>"
 
     def check(self) -> Check:
-        """Everything wrong or doubtful in the file."""
+        """Everything wrong or doubtful in the file.
+
+        Returns
+        -------
+        Check
+            Its ``diagnostics``, and whether there is no error.
+        """
         text, data, has_errors = self._native.check()
         return Check(json.loads(data), text, has_errors)
 
     def derive(self) -> FieldDerivation:
         """Derives the Euler equations and the natural conditions on each piece of the boundary.
+
+        Returns
+        -------
+        FieldDerivation
+            Equations by where they hold.
 
         Raises
         ------
@@ -344,6 +443,11 @@ class Functional:
             Folder to write the report and the record into.
         progress : bool
             Whether a progress bar is shown.
+
+        Returns
+        -------
+        FunctionalStudy
+            Verdicts on the claims.
         """
         words = "" if claims is None else claims if isinstance(claims, str) else ",".join(claims)
         with _Progress(progress) as tell:
@@ -353,7 +457,17 @@ class Functional:
         return found
 
     def explain(self, claim: str = "functional.euler") -> Explanation:
-        """What a claim states and how it is decided: :func:`chetaev.explain`."""
+        """What a claim states and how it is decided: :func:`chetaev.explain`.
+
+        Parameters
+        ----------
+        claim : str
+            The id of a claim.
+
+        Returns
+        -------
+        Explanation
+        """
         return explain(claim)
 
 

@@ -35,20 +35,50 @@ class Gallery(Result):
 
 
 def list() -> Gallery:  # noqa: A001
-    """All models."""
+    """All models.
+
+    Returns
+    -------
+    Gallery
+        A sequence of names; ``to_dict()`` has titles and files too.
+    """
     data = json.loads(native.gallery()[0])
     width = max(len(own["name"]) for own in data)
     return Gallery(data, "\n".join(f"{own['name']:<{width}} {own['title']}" for own in data))
 
 
 def describe(name: str) -> Gallery:
-    """The description of a model."""
+    """The description of a model.
+
+    Parameters
+    ----------
+    name : str
+        As :func:`list` names it.
+
+    Returns
+    -------
+    Gallery
+        Of this model; its text is the description.
+    """
     data, _, description = native.gallery(name)
     return Gallery({**json.loads(data), "description": description}, description)
 
 
 def copy(name: str, folder: str | os.PathLike[str] | None = None) -> Gallery:
-    """Writes a model into a new folder, its own name when left out."""
+    """Writes a model into a new folder, its own name when left out.
+
+    Parameters
+    ----------
+    name : str
+        As :func:`list` names it.
+    folder : path, optional
+        A folder that does not exist yet; one of the name of the model when left out.
+
+    Returns
+    -------
+    Gallery
+        Of this model, with the folder in its data.
+    """
     data, texts, _ = native.gallery(name)
     target = os.fspath(folder if folder is not None else name.rsplit("/", 1)[-1])
     if os.path.exists(target):
@@ -59,5 +89,16 @@ def copy(name: str, folder: str | os.PathLike[str] | None = None) -> Gallery:
 
 
 def texts(name: str) -> dict[str, Any]:
-    """The files of a model, and of the others of its group, by path."""
+    """The files of a model, and of the others of its group, by path.
+
+    Parameters
+    ----------
+    name : str
+        As :func:`list` names it.
+
+    Returns
+    -------
+    dict from str to str
+        Texts by the paths of the files.
+    """
     return dict(native.gallery(name)[1])

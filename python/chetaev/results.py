@@ -13,6 +13,9 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
+from . import notebook
+from .keywords import in_python, of_data
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
@@ -22,18 +25,9 @@ if TYPE_CHECKING:
 
     from .chetaev_native import Linear, Outcome
     from .system import System
+    from .trees import Module
 
 Json = Any
-#: Colours of verdicts, legible on light and dark pages.
-_COLOURS = {
-    "proved": "#2e9e4f",
-    "numerical": "#1f8fb3",
-    "refuted": "#d0443c",
-    "conditional": "#c08a12",
-    "not-applicable": "#888888",
-    "undecided": "#888888",
-}
-
 
 def write(path: str | os.PathLike[str], content: bytes) -> None:
     """Writes a file completely or not at all."""
@@ -76,10 +70,16 @@ class Result(Shown):
 
     def __init__(self, data: Json, text: str) -> None:
         self._data = data
-        self._text = text
+        self._text = in_python(text)
 
     def to_dict(self) -> Json:
-        """The data, equal to what the command writes with ``--json``."""
+        """The data, equal to what the command writes with ``--json``.
+
+        Returns
+        -------
+        dict or list
+            Plain data: texts, numbers, lists and dicts.
+        """
         return json.loads(json.dumps(self._data))
 
     def __str__(self) -> str:
@@ -93,7 +93,13 @@ class Result(Shown):
 
 
 class Check(Result):
-    """What is wrong or doubtful in a model. ``diagnostics`` are its problems; ``ok`` says that there is no error."""
+    """What is wrong or doubtful in a model.
+
+    Attributes
+    ----------
+    ok : bool
+        Whether there is no error.
+    """
 
     def __init__(self, data: Json, text: str, has_errors: bool) -> None:
         super().__init__(data, text or "no errors")
@@ -101,11 +107,22 @@ class Check(Result):
 
     @property
     def diagnostics(self) -> list[dict[str, Any]]:
-        return list(self.to_dict())
+        """The problems, with keywords in the place of options of the command line."""
+        return list(of_data(self.to_dict()))
 
 
 class Equation:
-    """An equation ``left = right`` as texts of the model notation, with its LaTeX."""
+    """An equation ``left = right``.
+
+    Attributes
+    ----------
+    label : str
+        What it is the equation of; may be empty.
+    left, right : str
+        In the notation of the model, with the names and linear systems of long ones below ``where``.
+    latex : str
+        In LaTeX.
+    """
 
     def __init__(self, data: Mapping[str, str]) -> None:
         self.label = data["label"]
@@ -121,9 +138,22 @@ class Equation:
 
 
 class Formulation:
-    """The equations of motion in one form: ``groups`` by their headings, and intermediate ``objects``.
+    """The equations of motion in one form.
 
-    A formulation that does not apply has no groups, and ``not_derived`` says why.
+    Attributes
+    ----------
+    name, title : str
+        By which it is asked for, and what it is called.
+    statement, principle : str
+        What it states, and the principle that it follows from.
+    not_derived : str or None
+        Why it does not apply, and then it has no equations; ``None`` where it does.
+    state : list of str
+        Names of its state, which with the coordinates make the equations a system of the first order.
+    groups : dict from str to list of Equation
+        The equations by their headings.
+    objects : dict from str to dict
+        Intermediate results, as momenta, by their names.
     """
 
     def __init__(self, data: dict[str, Any]) -> None:
@@ -152,7 +182,13 @@ class Formulation:
         return "\n".join(lines)
 
     def to_latex(self) -> str:
-        """The equations in an ``aligned`` environment."""
+        """The equations in an ``aligned`` environment.
+
+        Returns
+        -------
+        str
+            A text for a document with amsmath.
+        """
         rows = [own.latex.replace(" = ", " &= ", 1) for own in self.equations]
         return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
 
@@ -181,7 +217,15 @@ def part_of(parts: list[Any], which: Any, name: Callable[[Any], str]) -> Any:
 
 
 class Derivation(Result, Sequence[Formulation]):
-    """Equations of motion in one or several forms."""
+    """Equations of motion in one or several forms: ``derivation["maggi"]``, ``derivation[0]``.
+
+    Attributes
+    ----------
+    formulations : list of Formulation
+        The forms in the order in which they were asked for.
+    notes : list of str
+        What a reader must know.
+    """
 
     def __init__(self, system: System, asked: tuple[list[str], bool], data: Json, notes: list[str]) -> None:
         self._system = system
@@ -203,10 +247,28 @@ class Derivation(Result, Sequence[Formulation]):
         return which in self.formulations or which in [own.name for own in self.formulations]
 
     def to(self, notation: str) -> str:
-        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust, c, python, matlab or julia."""
+        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust, c, python, matlab or julia.
+
+        Parameters
+        ----------
+        notation : str
+            ``text``, ``latex``, ``mathml``, ``sympy``, ``json``, ``rust``, ``c``, ``python``, ``matlab`` or ``julia``.
+
+        Returns
+        -------
+        str
+            The text.
+        """
         return self._system._native.derive(*self._asked, notation)[0]
 
     def to_latex(self) -> str:
+        """The equations in LaTeX.
+
+        Returns
+        -------
+        str
+            A text for a document with amsmath.
+        """
         return self.to("latex")
 
     def to_sympy(self) -> dict[str, dict[str, list[Any]]]:
@@ -214,8 +276,15 @@ class Derivation(Result, Sequence[Formulation]):
 
         Coordinates are ``sympy.Function("x", real=True)(t)``, parameters ``sympy.Symbol("m", real=True)``; of a system that was stated in SymPy all
         are the symbols, functions and time of the statement.
+
+        Returns
+        -------
+        dict from str to dict from str to list of sympy.Eq
+            Equations by formulation and heading. Unknowns of linear systems that equations share stay symbols, and the systems stand
+            under the heading with ``: linear systems`` behind.
         """
-        found = self._in_sympy()
+        sections = self._module().sections
+        found = {own.name: sections[own.name.replace("-", "_")] for own in self.formulations if own.not_derived is None}
         own = self._system._own
         if own is None:
             return found
@@ -223,11 +292,11 @@ class Derivation(Result, Sequence[Formulation]):
             name: {title: [own.back(one) for one in equations] for title, equations in groups.items()} for name, groups in found.items()
         }
 
-    def _in_sympy(self) -> dict[str, dict[str, list[Any]]]:
-        space: dict[str, Any] = {}
-        exec(compile(self.to("sympy"), "<chetaev>", "exec"), space)
-        names = [own.name for own in self.formulations if own.not_derived is None]
-        return {name: space[name.replace("-", "_")] for name in names}
+    def _module(self) -> Module:
+        from .trees import Module
+
+        names = [own.name.replace("-", "_") for own in self.formulations if own.not_derived is None]
+        return Module(self.to("sympy"), names)
 
     def _latex(self) -> str | None:
         return "\n".join(f"$${own.to_latex()}$$" for own in self.formulations if own.groups)
@@ -239,7 +308,13 @@ class Derivation(Result, Sequence[Formulation]):
 
 
 class Counts(Result):
-    """How many operations the equations of each form have as they are printed."""
+    """How many operations the equations of each form have as they are printed.
+
+    Attributes
+    ----------
+    notes : list of str
+        What a reader must know.
+    """
 
     def __init__(self, text: str, notes: list[str]) -> None:
         super().__init__({"text": text, "notes": notes}, text)
@@ -247,7 +322,13 @@ class Counts(Result):
 
 
 class Steps(Result):
-    """A derivation step by step, each step proved as it is written; ``latex`` for a whole document."""
+    """A derivation step by step, each step proved as it is written; ``latex`` for a whole document.
+
+    Attributes
+    ----------
+    notes : list of str
+        What a reader must know.
+    """
 
     def __init__(self, text: str, notes: list[str]) -> None:
         super().__init__({"text": text, "notes": notes}, text)
@@ -263,7 +344,20 @@ class Steady(Result):
 
     @property
     def motions(self) -> list[dict[str, Any]]:
+        """The motions, as in the JSON of the command."""
         return list(self.to_dict()["motions"])
+
+    def _html(self) -> str:
+        data = self._data
+        speeds = [(notebook.code(own["name"]), notebook.code(own["definition"])) for own in data.get("speeds", [])]
+        rows = []
+        for own in data["motions"]:
+            values = ", ".join(f"{one['name']} = {one['exact'] if one.get('exact') is not None else one.get('value')}" for one in own["values"])
+            conditions = [f"{one} = 0" for one in own["equations"]] + [f"{one} ≥ 0" for one in own["not_negative"]]
+            rows.append((own["name"], notebook.code(values), ", ".join(own["free"]), "; ".join(map(str, conditions))))
+        shown = notebook.table(["motion", "constant along it", "free", "where"], rows)
+        named = notebook.unfolding("what the speeds are", notebook.table([], speeds)) if speeds else ""
+        return shown + named + notebook.unfolding("in words", super()._html())
 
 
 class StabilityMap(Result):
@@ -274,8 +368,17 @@ class StabilityMap(Result):
         self._picture = picture
 
     def picture(self) -> str:
-        """Regions with their boundaries as SVG."""
+        """Regions with their boundaries as SVG.
+
+        Returns
+        -------
+        str
+            SVG.
+        """
         return self._picture
+
+    def _html(self) -> str:
+        return notebook.picture(self._picture) + notebook.unfolding("in words", super()._html())
 
 
 class Followed(Result):
@@ -283,6 +386,7 @@ class Followed(Result):
 
     @property
     def points(self) -> list[dict[str, Any]]:
+        """Points of the curve: value of the parameter, state, eigenvalues or multipliers, stability; in the order of the curve."""
         return list(self.to_dict()["points"])
 
     @property
@@ -290,9 +394,35 @@ class Followed(Result):
         """Folds, branch points, Hopf points, multipliers on the unit circle."""
         return list(self.to_dict()["special"])
 
+    def _html(self) -> str:
+        data = self._data
+        name = data.get("parameter") or "value"
+
+        def rows(points: Any) -> str:
+            keys = [key for key in ("kind", "value", "state", "period", "eigenvalues", "multipliers", "stability") if any(key in own for own in points)]
+            head = [name if key == "value" else key for key in keys]
+            return notebook.table(head, [[own.get(key, "") if key == "kind" else _listed(own.get(key)) for key in keys] for own in points])
+
+        special = rows(data["special"]) if data["special"] else notebook.paragraph("No special points were met.")
+        shown = special + notebook.unfolding(f"{len(data['points'])} points", rows(data["points"]))
+        return shown + notebook.unfolding("in words", super()._html())
+
+
+def _listed(value: Any) -> Any:
+    """Pairs of real and imaginary parts as complex numbers, one after the other."""
+    if isinstance(value, list) and value and all(isinstance(own, list) for own in value):
+        return ", ".join(notebook.complex_number(own) for own in value)
+    return [float(own) for own in value] if isinstance(value, list) and len(value) != 2 else value
+
 
 class Linearization(Result):
-    """Linear equations ``E z' = F z`` about a steady motion, exact."""
+    """Linear equations ``E z' = F z`` about a steady motion, exact.
+
+    Attributes
+    ----------
+    variables : list of str
+        The components of z: deviations from the motion.
+    """
 
     def __init__(self, system: System, native: Linear, text: str) -> None:
         super().__init__(json.loads(native.json()), text)
@@ -301,11 +431,23 @@ class Linearization(Result):
         self.variables: list[str] = self._data["variables"]
 
     def to_latex(self) -> str:
-        """The matrices in LaTeX."""
+        """The matrices in LaTeX.
+
+        Returns
+        -------
+        str
+            Displayed equations, for a document with amsmath.
+        """
         return self._native.latex()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt."""
+        """Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
+
+        Parameters
+        ----------
+        path : path
+            The file to write.
+        """
         own = self._native
         formats: dict[str, Any] = {
             ".npz": own.npz, ".mat": own.mat, ".py": own.control, ".tex": own.latex, ".txt": own.equations,
@@ -316,6 +458,17 @@ class Linearization(Result):
             raise ValueError(f"{os.fspath(path)}: the end of the name says the format: {', '.join(formats)}")
         content = formats[end]()
         write(path, content.encode() if isinstance(content, str) else bytes(content))
+
+    def _html(self) -> str:
+        data = self._data
+        shown = notebook.paragraph(f"{data['system']}, steady motion {data['motion']}: E z' = F z with z = ({', '.join(self.variables)})")
+        shown += "".join(notebook.matrix(name, data[name]) for name in "EFABCD" if data.get(name))
+        if data.get("eigenvalues"):
+            shown += notebook.table(["eigenvalues"], [[notebook.complex_number(own)] for own in data["eigenvalues"]])
+        return shown + notebook.unfolding("in words", super()._html())
+
+    def _latex(self) -> str | None:
+        return self.to_latex()
 
     @property
     def E(self) -> list[list[str]]:
@@ -329,14 +482,20 @@ class Linearization(Result):
 
     @property
     def eigenvalues(self) -> NDArray[np.complex128] | None:
-        """At the values of the model; ``None`` where one has no value."""
+        """At the values of the model, in 1/s where the model states units, shape (variables,); ``None`` where one has no value."""
         import numpy as np
 
         pairs = self._data["eigenvalues"]
         return None if pairs is None else np.array([complex(re, im) for re, im in pairs])
 
     def to_sympy(self) -> tuple[Any, Any]:
-        """The matrices E and F."""
+        """The matrices E and F.
+
+        Returns
+        -------
+        tuple of sympy.Matrix, sympy.Matrix
+            E and F, of shape (variables, variables).
+        """
         import sympy as sp
 
         rows = self.E + self.F
@@ -351,8 +510,33 @@ class Stability(Linearization):
     """Stability of a steady motion; over a range of a parameter ``regions`` and ``critical`` values with their enclosures."""
 
     def picture(self) -> str | None:
-        """Eigenvalues over the range as SVG; ``None`` without a range."""
+        """Eigenvalues over the range as SVG; ``None`` without a range.
+
+        Returns
+        -------
+        str or None
+            SVG.
+        """
         return self._native.picture()
+
+    def _html(self) -> str:
+        data = self._data
+        if "regions" not in data:
+            return super()._html()
+        name = data["parameter"]
+        words = {
+            "asymptotic": "all eigenvalues but the zeros of a family are left of the axis" if data["family"] else "all eigenvalues are left of the axis",
+            "unstable": "an eigenvalue is right of the axis",
+        }
+        regions = [(f"{own['from']:g} < {name} < {own['to']:g}", words.get(own["stability"], own["stability"])) for own in data["regions"]]
+        critical = [(f"{name} = {own['value']:.12g}", own["kind"]) for own in data["critical"]]
+        shown = notebook.table([name, "eigenvalues"], regions)
+        if critical:
+            shown += notebook.table(["critical value", "what happens"], critical)
+        return shown + notebook.picture(self.picture()) + notebook.unfolding("linear equations", super()._html())
+
+    def _latex(self) -> str | None:
+        return None if "regions" in self._data else super()._latex()
 
     @property
     def critical(self) -> list[dict[str, Any]] | None:
@@ -395,30 +579,34 @@ class Verdict(Shown):
     def __bool__(self) -> bool:
         raise TypeError("a verdict has no truth value: compare `verdict` with one of the six words")
 
-    def _row(self) -> str:
-        said = {key: own for key, own in self.data.items() if own not in (None, [], "")}
-        evidence = html.escape(json.dumps(said, indent=1, ensure_ascii=False))
-        colour = _COLOURS.get(self.verdict, "#888888")
-        return (
-            f"<tr><td style='text-align:left'><code>{html.escape(self.claim)}</code></td>"
-            f"<td style='text-align:left;color:{colour}'><b>{self.verdict}</b></td>"
-            f"<td style='text-align:left'><details><summary>{html.escape(self.detail)}</summary>"
-            f"<pre>{evidence}</pre></details></td></tr>"
-        )
-
     def _html(self) -> str:
-        return f"<table>{self._row()}</table>"
+        return notebook.verdicts([self])
 
 
-class Columns(dict[str, "NDArray[np.float64]"]):
+class Columns(dict[str, "NDArray[np.float64]"], Shown):
     """Columns of one length by their names: a dict of arrays of shape (rows,)."""
 
+    def _html(self) -> str:
+        return notebook.columns(self)
+
     def to_dict(self) -> dict[str, list[float]]:
-        """The columns as lists of numbers."""
+        """The columns as lists of numbers.
+
+        Returns
+        -------
+        dict from str to list of float
+            By the names of the columns.
+        """
         return {name: own.tolist() for name, own in self.items()}
 
     def to_pandas(self) -> DataFrame:
-        """A ``pandas.DataFrame`` with the time as index."""
+        """A ``pandas.DataFrame`` with the time as index.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A column for each array but ``t``.
+        """
         import pandas as pd
 
         return pd.DataFrame(dict(self)).set_index("t")
@@ -435,6 +623,8 @@ class DenseOutput:
     ----------
     names : list of str
         The coordinates, then their velocities.
+    coordinates : list of str
+        These alone.
     t_min, t_max : float
         The span.
     """
@@ -470,7 +660,17 @@ class DenseOutput:
         self._coefficients = scaled / h ** np.arange(6)[:, None, None]
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
-        """The state at a time, shape (2 n,), or at many, shape (2 n, times).
+        """The state at a time, in the order of ``names``, shape (names,), or at many, shape (names, times).
+
+        Parameters
+        ----------
+        t : float or array of shape (times,)
+            Times of the span.
+
+        Returns
+        -------
+        array
+            Of shape (names,) or (names, times), in SI units.
 
         Raises
         ------
@@ -599,7 +799,13 @@ class Trajectory(Result):
         return np.array(self.y, dtype=dtype, copy=True if copy is None else copy)
 
     def keys(self) -> list[str]:
-        """Names of the columns; with this, ``dict(trajectory)`` works."""
+        """Names of the columns; with this, ``dict(trajectory)`` works.
+
+        Returns
+        -------
+        list of str
+            The same as ``names``.
+        """
         return list(self.names)
 
     @property
@@ -652,7 +858,7 @@ class Trajectory(Result):
     @property
     def notices(self) -> list[str]:
         """What a reader must know."""
-        return list(self._data["notices"])
+        return [in_python(own) for own in self._data["notices"]]
 
     @property
     def drift(self) -> dict[str, float | None]:
@@ -674,30 +880,60 @@ class Trajectory(Result):
         return list(self.to_dict()["events"])
 
     def to_numpy(self) -> NDArray[np.float64]:
-        """One array of shape (rows, columns), as ``y``."""
+        """One array of shape (rows, columns), as ``y``.
+
+        Returns
+        -------
+        array of shape (rows, columns)
+            In SI units.
+        """
         return self.y
 
     def to_pandas(self) -> DataFrame:
-        """A ``pandas.DataFrame`` with the time as index."""
+        """A ``pandas.DataFrame`` with the time as index.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each time.
+        """
         import pandas as pd
 
         frame = pd.DataFrame({name: self[name] for name in self.names})
         return frame.set_index("t")
 
     def to_polars(self) -> Any:
-        """A ``polars.DataFrame``."""
+        """A ``polars.DataFrame``.
+
+        Returns
+        -------
+        polars.DataFrame
+            A row for each time, which is the first column.
+        """
         import polars as pl  # pyright: ignore[reportMissingImports]
 
         return pl.DataFrame({name: self[name] for name in self.names})
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset`` over the time."""
+        """An ``xarray.Dataset`` over the time.
+
+        Returns
+        -------
+        xarray.Dataset
+            A variable over ``t`` for each column.
+        """
         import xarray as xr
 
         return xr.Dataset({name: ("t", self[name]) for name in self.names[1:]}, coords={"t": self.t})
 
     def to_arrow(self) -> Any:
-        """A ``pyarrow.Table``."""
+        """A ``pyarrow.Table``.
+
+        Returns
+        -------
+        pyarrow.Table
+            A row for each time, which is the first column.
+        """
         import pyarrow as pa
 
         return pa.table({name: pa.array(self[name]) for name in self.names})
@@ -706,7 +942,13 @@ class Trajectory(Result):
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_csv(self) -> str:
-        """The text of ``trajectory.csv``."""
+        """The text of ``trajectory.csv``.
+
+        Returns
+        -------
+        str
+            With a line of names.
+        """
         return self._outcome.csv()
 
     def plot(self, names: Sequence[str] | str | None = None, ax: Axes | None = None) -> Axes:
@@ -737,29 +979,98 @@ class Trajectory(Result):
         return ax
 
     def picture(self, *, at: float | None = None, ghosts: int = 0, width: int = 960, height: int = 540) -> Picture:
-        """The drawing at a time, the end when left out, with the bodies at so many earlier times."""
+        """The drawing at a time, the end when left out, with the bodies at so many earlier times.
+
+        Parameters
+        ----------
+        at : float, optional
+            The time that is shown; the end when left out.
+        ghosts : int
+            At how many earlier times the bodies are shown too.
+        width : int
+            Width in pixels.
+        height : int
+            Greatest height in pixels.
+
+        Returns
+        -------
+        Picture
+        """
         return Picture(self._outcome, at, ghosts, (width, height))
 
     def animate(self, *, seconds: float | None = None, width: int = 640, height: int = 360) -> Film:
-        """The moving drawing, of so many seconds."""
+        """The moving drawing, of so many seconds.
+
+        Parameters
+        ----------
+        seconds : float, optional
+            How long the film is; as long as the motion, from 2 to 20 seconds, when left out.
+        width : int
+            Width in pixels.
+        height : int
+            Greatest height in pixels.
+
+        Returns
+        -------
+        Film
+            A GIF, which notebooks show.
+        """
         return Film(self._outcome, seconds, (width, height))
 
     def report(self) -> str:
-        """The report, one HTML page with equations, plots and animation."""
+        """The report, one HTML page with equations, plots and animation.
+
+        Returns
+        -------
+        str
+            HTML that needs nothing else.
+        """
         return self._outcome.page([])
 
     def save_report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report."""
+        """Writes the report.
+
+        Parameters
+        ----------
+        path : path
+            The .html to write.
+        """
         write(path, self.report().encode())
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes ``trajectory.csv``, ``trajectory.npz`` and, where the model states events, ``events.csv``."""
+        """Writes ``trajectory.csv``, ``trajectory.npz`` and, where the model states events, ``events.csv``.
+
+        Parameters
+        ----------
+        folder : path
+            A folder, which is made where there is none.
+        """
         for name, content in _data_files(self._outcome).items():
             write(os.path.join(folder, name), content)
 
     def render_static(self) -> str:
-        """HTML with the report inside, which exported notebooks keep."""
+        """HTML with the report inside, which exported notebooks keep.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
         return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
+
+    def _html(self) -> str:
+        data = self._data
+        said = f"t = {data['t_start']:g} … {data['t']:g}, {len(self)} rows, {data['steps']} steps of {data['method']}: {self.reason}"
+        ends = zip(data["initial"], data["final"])
+        state = [(notebook.code(one["name"]), one["value"], other["value"]) for one, other in ends]
+        scales = self.scales
+        drifts = [(name, value, scales.get(name)) for name, value in self.drift.items()]
+        shown = notebook.paragraph(said) + notebook.table(["", "at the start", "at the end"], state)
+        shown += notebook.unfolding("drift", notebook.table(["of", "largest change", "largest magnitude"], drifts))
+        if data["events"]:
+            met = [(own["name"], own["t"] if "t" in own else own.get("time")) for own in data["events"]]
+            shown += notebook.unfolding(f"{len(met)} events", notebook.table(["event", "t"], met))
+        return shown + notebook.unfolding("verdicts", notebook.verdicts(self.verdicts)) + "".join(map(notebook.paragraph, self.notices))
 
 
 def _unpickled(cls: Any, kept: dict[str, Any]) -> Any:
@@ -784,17 +1095,43 @@ class Picture(Shown):
         self._asked = (at, ghosts, size)
 
     def to_svg(self) -> str:
+        """The picture as SVG.
+
+        Returns
+        -------
+        str
+            SVG.
+        """
         return bytes(self._outcome.picture("svg", *self._asked)).decode()
 
     def to_png(self) -> bytes:
+        """The picture as PNG.
+
+        Returns
+        -------
+        bytes
+            The content of a .png.
+        """
         return bytes(self._outcome.picture("png", *self._asked))
 
     def to_dict(self) -> Json:
-        """The description of the picture, equal to ``scene.json``."""
+        """The description of the picture, equal to ``scene.json``.
+
+        Returns
+        -------
+        dict
+            Plain data.
+        """
         return json.loads(self._outcome.scene())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes .svg, .png, or .json with the description of the picture."""
+        """Writes .svg, .png, or .json with the description of the picture.
+
+        Parameters
+        ----------
+        path : path
+            The file to write.
+        """
         contents: dict[str, Any] = {
             ".svg": lambda: self.to_svg().encode(),
             ".png": self.to_png,
@@ -816,13 +1153,25 @@ class Picture(Shown):
 
 
 class Film(Shown):
-    """The moving drawing of a motion, a GIF; notebooks show it."""
+    """The moving drawing of a motion, a GIF; notebooks show it.
+
+    Attributes
+    ----------
+    content : bytes
+        The content of the .gif.
+    """
 
     def __init__(self, outcome: Outcome, seconds: float | None, size: tuple[int, int]) -> None:
         self.content: bytes = bytes(outcome.film(seconds, size))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a .gif."""
+        """Writes a .gif.
+
+        Parameters
+        ----------
+        path : path
+            The .gif to write.
+        """
         if os.path.splitext(path)[1] != ".gif":
             raise ValueError(f"{os.fspath(path)}: a film is written as .gif")
         write(path, self.content)
@@ -837,7 +1186,15 @@ class Film(Shown):
 
 
 class Study(Result):
-    """Claims with their verdicts, and the motion. ``study["energy.integral"]`` is a verdict, ``study.verdicts`` are all."""
+    """Claims with their verdicts, and the motion. ``study["energy.integral"]`` is a verdict.
+
+    Attributes
+    ----------
+    verdicts : list of Verdict
+        All of them.
+    trajectory : Trajectory or None
+        The motion, where the model has the values for one.
+    """
 
     def __init__(self, outcome: Any, text: str, again: tuple[Any, ...] | None = None) -> None:
         self._outcome: Outcome = outcome
@@ -875,22 +1232,46 @@ class Study(Result):
     @property
     def notices(self) -> list[str]:
         """What a reader must know."""
-        return self._outcome.notices
+        return [in_python(own) for own in self._outcome.notices]
 
     def summary(self) -> str:
-        """The text that the command prints."""
-        return self._outcome.summary()
+        """The text that the command prints, with keywords in the place of options.
+
+        Returns
+        -------
+        str
+            The text.
+        """
+        return in_python(self._outcome.summary())
 
     def report(self) -> str:
-        """The report, one HTML page."""
+        """The report, one HTML page.
+
+        Returns
+        -------
+        str
+            HTML that needs nothing else.
+        """
         return self._outcome.page([])
 
     def save_report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report."""
+        """Writes the report.
+
+        Parameters
+        ----------
+        path : path
+            The .html to write.
+        """
         write(path, self.report().encode())
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes what the command writes: the trajectory, ``report.html``, and ``study.json`` with checksums of the others."""
+        """Writes what the command writes: the trajectory, ``report.html``, and ``study.json`` with checksums of the others.
+
+        Parameters
+        ----------
+        folder : path
+            A folder, which is made where there is none.
+        """
         import hashlib
 
         files = _data_files(self._outcome) if self._outcome.has_motion else {}
@@ -904,13 +1285,17 @@ class Study(Result):
         write(os.path.join(folder, "study.json"), text.encode())
 
     def render_static(self) -> str:
-        """HTML with the report inside, which exported notebooks keep."""
+        """HTML with the report inside, which exported notebooks keep.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
         return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
 
     def _html(self) -> str:
-        rows = "".join(own._row() for own in self.verdicts)
-        notes = "".join(f"<p>{html.escape(own)}</p>" for own in self.notices)
-        return f"<table>{rows}</table>{notes}"
+        return notebook.verdicts(self.verdicts) + "".join(notebook.paragraph(own) for own in self.notices)
 
 
 class Explanation(Result):
@@ -918,7 +1303,13 @@ class Explanation(Result):
 
 
 class Verification(Result):
-    """What a replay says of each verdict of a record; ``agrees`` says that nothing disagrees."""
+    """What a replay says of each verdict of a record.
+
+    Attributes
+    ----------
+    agrees : bool
+        Whether nothing disagrees.
+    """
 
     def __init__(self, data: Json, agrees: bool) -> None:
         # What the checker says of a claim, in its own words.
@@ -927,3 +1318,7 @@ class Verification(Result):
         lines = [f"{own[keys[0]]:<10} {own['claim']:<{width}} {own[keys[1]]:<14} {own[keys[2]]}" for own in data]
         super().__init__(data, "\n".join(lines))
         self.agrees = agrees
+        self._keys = ("claim", *keys)
+
+    def _html(self) -> str:
+        return notebook.table(self._keys, [[own[key] for key in self._keys] for own in self._data])

@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from . import notebook
 from .errors import Interrupted
 from .results import Result, write
 from .texts import exact
@@ -17,6 +18,8 @@ from .texts import exact
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
+
+    from pandas import DataFrame
 
     from . import chetaev_native as native
     from .system import System
@@ -69,38 +72,77 @@ class Sweep(Result):
     def __len__(self) -> int:
         return len(self._arrays["stop"])
 
+    def _html(self) -> str:
+        shown = {name: own for name, own in self._arrays.items() if own.ndim == 1 and not name.startswith(("count_", "first_"))}
+        counts = [(own.strip(),) for own in str(self).splitlines()]
+        failed = notebook.table(["trajectory", "why it ended early or did not begin"], sorted(self.failures.items())[:50])
+        table = notebook.table([], counts) + notebook.unfolding("first and last trajectories", notebook.columns(shown))
+        return table + (notebook.unfolding(f"{len(self.failures)} failures", failed) if self.failures else "")
+
     def keys(self) -> list[str]:
-        """Names of the columns; with this, ``dict(sweep)`` works."""
+        """Names of the columns; with this, ``dict(sweep)`` works.
+
+        Returns
+        -------
+        list of str
+            The same as ``names``.
+        """
         return list(self.names)
 
-    def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame``, a row for each trajectory; samples are left out."""
+    def to_pandas(self) -> DataFrame:
+        """A ``pandas.DataFrame``, a row for each trajectory; samples are left out.
+
+        Returns
+        -------
+        pandas.DataFrame
+        """
         import pandas as pd
 
         return pd.DataFrame({name: own for name, own in self._arrays.items() if own.ndim == 1})
 
     def to_polars(self) -> Any:
-        """A ``polars.DataFrame``, a row for each trajectory; samples are left out."""
+        """A ``polars.DataFrame``, a row for each trajectory; samples are left out.
+
+        Returns
+        -------
+        polars.DataFrame
+        """
         import polars as pl  # pyright: ignore[reportMissingImports]
 
         return pl.DataFrame({name: own for name, own in self._arrays.items() if own.ndim == 1})
 
     def to_xarray(self) -> Any:
-        """An ``xarray.Dataset`` over the trajectories, and over the samples where there are some."""
+        """An ``xarray.Dataset`` over the trajectories, and over the samples where there are some.
+
+        Returns
+        -------
+        xarray.Dataset
+        """
         import xarray as xr
 
         axes = ("trajectory", "sample")
         return xr.Dataset({name: (axes[: own.ndim], own) for name, own in self._arrays.items()})
 
     def to_arrow(self) -> Any:
-        """A ``pyarrow.Table``, a row for each trajectory; samples are lists."""
+        """A ``pyarrow.Table``, a row for each trajectory; samples are lists.
+
+        Returns
+        -------
+        pyarrow.Table
+        """
         return _table(self._arrays, self.failures)
 
     def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes ``sweep.npz`` and ``failures.csv``."""
+        """Writes ``sweep.npz`` and ``failures.csv``.
+
+        Parameters
+        ----------
+        folder : path
+            A folder, which is made where there is none.
+        """
         import numpy as np
 
         archive = io.BytesIO()
@@ -201,6 +243,13 @@ def ensemble(
         computation that was interrupted or killed goes on with the chunks that are missing.
     **motion
         ``t_end``, ``tolerance``, ``method`` and the other keywords of :meth:`System.simulate`.
+    progress : bool
+        Whether a progress bar is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Sweep
+        A row for each trajectory.
 
     Raises
     ------

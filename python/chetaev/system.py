@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from . import chetaev_native as native
 from .errors import Interrupted, ModelWarning
+from .keywords import in_python
 from .results import (
     Check,
     Columns,
@@ -122,7 +123,7 @@ class System:
 
     def _take(self, model: native.Model) -> System:
         self._native = model
-        said = model.warnings()
+        said = in_python(model.warnings())
         if said:
             warnings.warn(said, ModelWarning, stacklevel=3)
         return self
@@ -138,6 +139,10 @@ class System:
         set : mapping, optional
             Other values of parameters and sizes, exactly, as ``--set``.
 
+        Returns
+        -------
+        System
+
         Raises
         ------
         ModelError
@@ -152,13 +157,39 @@ class System:
     def from_text(
         cls, text: str, *, path: str | os.PathLike[str] | None = None, set: Mapping[str, Value] | None = None
     ) -> System:
-        """Reads a model from its text; what it includes is looked for beside ``path``."""
+        """Reads a model from its text; what it includes is looked for beside ``path``.
+
+        Parameters
+        ----------
+        text : str
+            The text of a model file.
+        path : path, optional
+            Where the file would stand: what it includes is looked for beside it, and messages name it.
+        set : mapping from names to values, optional
+            Other values of parameters and sizes, exactly: ``{"m": "1/3"}``.
+
+        Returns
+        -------
+        System
+        """
         place = None if path is None else os.fspath(path)
         return cls.__new__(cls)._take(native.Model.from_text(text, place, _pairs(set)))
 
     @classmethod
     def from_gallery(cls, name: str, *, set: Mapping[str, Value] | None = None) -> System:
-        """A model that comes with Chetaev; ``chetaev.gallery.list()`` names them."""
+        """A model that comes with Chetaev; ``chetaev.gallery.list()`` names them.
+
+        Parameters
+        ----------
+        name : str
+            As ``chetaev.gallery.list()`` names it.
+        set : mapping from names to values, optional
+            Other values of parameters and sizes, exactly: ``{"m": "1/3"}``.
+
+        Returns
+        -------
+        System
+        """
         return cls.__new__(cls)._take(native.Model.from_texts(*of_gallery(name), _pairs(set)))
 
     @classmethod
@@ -166,6 +197,17 @@ class System:
         """Reads the description of a robot, URDF or MJCF; what is not understood is a warning with its line.
 
         ``text`` of the system is the model file that it became, to which contacts can be added.
+
+        Parameters
+        ----------
+        path : path
+            A file in URDF or MJCF.
+        set : mapping from names to values, optional
+            Other values of parameters and sizes, exactly: ``{"m": "1/3"}``.
+
+        Returns
+        -------
+        System
         """
         with open(path, encoding="utf-8") as file:
             text, notes = native.robot(file.read())
@@ -205,6 +247,12 @@ class System:
             Lagrangian has derived none.
         **sections
             As for :class:`System`: ``initial``, ``simulation``, ``controls``, …; keys may be SymPy's too, ``initial={x.diff(t): 1}``.
+        name : str
+            A name.
+
+        Returns
+        -------
+        System
 
         Raises
         ------
@@ -303,6 +351,7 @@ class System:
 
     @property
     def name(self) -> str:
+        """Its name."""
         return self._native.name
 
     @property
@@ -365,19 +414,38 @@ class System:
         sympy.Expr, or list of these
         """
         texts = [expressions] if isinstance(expressions, str) else list(expressions)
-        space: dict[str, Any] = {}
-        exec(compile(self._native.sympy([" ".join(own.split()) for own in texts]), "<chetaev>", "exec"), space)
-        found = list(space["found"]["all"])
+        found = self._in_sympy(texts)
         if self._own is not None:
             found = [self._own.back(own) for own in found]
         return found[0] if isinstance(expressions, str) else found
 
+    def _in_sympy(self, texts: Sequence[str]) -> list[Any]:
+        """Texts in SymPy, with the names of the model."""
+        from .trees import Module, replaced, solved
+
+        module = Module(self._native.sympy([" ".join(own.split()) for own in texts]), ["found"])
+        found = list(module.sections["found"]["all"])
+        rows = module.sections["found"].get("all: linear systems", [])
+        return replaced(found, solved(rows, module.is_unknown)) if rows else found
+
     def lowered(self) -> str:
-        """The model file with bodies, joints and contacts written out as coordinates, energies and constraints."""
+        """The model file with bodies, joints and contacts written out as coordinates, energies and constraints.
+
+        Returns
+        -------
+        str
+            The text of a model file.
+        """
         return self._native.lowered()
 
     def check(self) -> Check:
-        """Everything wrong or doubtful in the model."""
+        """Everything wrong or doubtful in the model.
+
+        Returns
+        -------
+        Check
+            Its ``diagnostics``, and whether there is no error.
+        """
         text, data, has_errors = self._native.check()
         return Check(json.loads(data), text, has_errors)
 
@@ -404,6 +472,13 @@ class System:
             Every formulation; those that do not apply say why.
         count : bool
             Counts the operations of the equations as they are printed; of the shortest when no formulation is named.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Derivation or Counts
+            A sequence of formulations, also by their names; with ``count`` the numbers of operations.
 
         Raises
         ------
@@ -436,13 +511,35 @@ class System:
             Every formulation that is written step by step.
         notation : "text" or "latex"
             How it is written.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Steps
+            Its text is the derivation.
         """
         names = [formulation] if isinstance(formulation, str) else list(formulation)
         with _Progress(progress) as tell:
             return Steps(*self._native.steps(names or ["reduced"], all, notation, tell))
 
     def compare(self, a: str, b: str, *, progress: bool = False) -> Comparison:
-        """Holds two forms of the equations against each other: ``derive --compare a b``."""
+        """Holds two forms of the equations against each other: ``derive --compare a b``.
+
+        Parameters
+        ----------
+        a : str
+            A formulation.
+        b : str
+            Another one.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Comparison
+            Its text says what differs, and why it vanishes.
+        """
         with _Progress(progress) as tell:
             text, notes = self._native.compare(a, b, tell)
         return Comparison({"a": a, "b": b, "text": text, "notes": notes}, text)
@@ -494,6 +591,11 @@ class System:
             Keeps the first integrals that are found, by projection.
         branch : int, optional
             Which branch of the motion is followed, where there are several.
+
+        Returns
+        -------
+        Study
+            Verdicts by claim, and the trajectory.
         """
         words = claims if claims is None or isinstance(claims, str) else ",".join(claims)
         if words == "":
@@ -769,6 +871,15 @@ class System:
             Ends at the first trajectory that ends early or does not begin.
         out : path, optional
             A folder to write ``sweep.npz`` and ``failures.csv`` into.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+        t_end, tolerance, step, method, precision, formulation, project, keep_integrals, branch
+            As in :meth:`simulate`.
+
+        Returns
+        -------
+        Sweep
+            A row for each trajectory.
 
         Raises
         ------
@@ -808,6 +919,13 @@ class System:
         ----------
         symbolic : bool
             For parameters in general position, instead of their values in the model.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Steady
+            Its ``motions``, exact.
 
         Examples
         --------
@@ -848,6 +966,13 @@ class System:
             Puts in the values of all parameters from the beginning: exact numbers alone.
         save : path, optional
             Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Linearization
+            The matrices as exact texts, in SymPy, in LaTeX, and the eigenvalues.
         """
         wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers)
         with _Progress(progress) as tell:
@@ -870,6 +995,13 @@ class System:
             A parameter with a range, ``"v=0:10"``.
         at : str, optional
             As in :meth:`linearize`.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Stability
+            Eigenvalues; over a range its regions and critical values.
         """
         with _Progress(progress) as tell:
             found = self._native.stability(_wanted(about=about, over=over, at=at), tell)
@@ -886,6 +1018,13 @@ class System:
             Two parameters with their ranges.
         about, at : str, optional
             As in :meth:`linearize`.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        StabilityMap
+            Regions with their boundaries.
         """
         with _Progress(progress) as tell:
             text, data, picture = self._native.stability_map(over, about, at, tell)
@@ -918,13 +1057,31 @@ class System:
             At most so many on each side of the start.
         step : float
             The longest step along the curve, in parts of the range.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Followed
+            Points along the curve, and special ones.
         """
         with _Progress(progress) as tell:
             text, data = self._native.follow(about, over, orbit, period, points, step, tell)
         return Followed(json.loads(data), text)
 
     def along(self, *, progress: bool = False) -> Result:
-        """Linear equations along the motion from the initial state: A(t), the transition matrix and its exponents, in numbers."""
+        """Linear equations along the motion from the initial state: A(t), the transition matrix and its exponents, in numbers.
+
+        Parameters
+        ----------
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
+
+        Returns
+        -------
+        Result
+            Its data as of ``chetaev linearize --along --json``, in numbers.
+        """
         with _Progress(progress) as tell:
             text, data = self._native.along(tell)
         return Result(json.loads(data), text)
@@ -942,6 +1099,8 @@ class System:
             Where they are wanted, ascending from the start.
         second : bool
             The second derivatives too.
+        progress : bool
+            Whether a progress bar is shown, where tqdm is installed.
 
         Returns
         -------
@@ -993,6 +1152,11 @@ class System:
         **ranges : pairs of numbers
             Parameters with the ends of their sliders: ``system.widget(a=(0.1, 0.5))``.
 
+        Returns
+        -------
+        Widget
+            A widget of anywidget.
+
         Examples
         --------
         >>> sleigh = System.from_gallery("chaplygin-sleigh")
@@ -1010,30 +1174,51 @@ class System:
         Parameters
         ----------
         formulation : str, optional
-            In the state of this formulation; the shortest of the usual ones when left out.
+            In the state of this formulation. When left out, it is the shortest of those whose equations are regular where the motion starts;
+            ``Exported.formulation`` names it.
+
+        Returns
+        -------
+        Exported
+            Its ``rhs`` takes and gives arrays of JAX.
         """
         from .exported import jax_library
 
         return self._exported(jax_library(), formulation)
 
     def to_casadi(self, formulation: str | None = None) -> Exported:
-        """The equations of motion as an expression of CasADi, ``rhs(t, y, p)`` for symbols y and p: for optimal control."""
+        """The equations of motion as an expression of CasADi, ``rhs(t, y, p)`` for symbols y and p: for optimal control.
+
+        Parameters
+        ----------
+        formulation : str, optional
+            As in :meth:`to_jax`.
+
+        Returns
+        -------
+        Exported
+            Its ``rhs`` takes and gives expressions of CasADi.
+        """
         from .exported import casadi_library
 
         return self._exported(casadi_library(), formulation)
 
     def to_opty(self) -> Residuals:
-        """Equations of the first order that vanish along the motion, in SymPy, with states and parameters: what opty's ``Problem`` takes."""
+        """Equations of the first order that vanish along the motion, in SymPy, with states and parameters: what opty's ``Problem`` takes.
+
+        Returns
+        -------
+        Residuals
+        """
         from .exported import Residuals
 
         return Residuals(self)
 
     def _exported(self, library: Any, formulation: str | None) -> Exported:
-        from .exported import Exported, names_of
+        from .exported import Exported, names_of, regular_form
 
-        names = ["reduced"] if formulation is None else [formulation]
-        source = self._native.derive(names, False, "python")[0]
-        return Exported(source, library, names_of(source))
+        name, source = regular_form(self._native) if formulation is None else (formulation, self._native.derive([formulation], False, "python")[0])
+        return Exported(source, library, names_of(source), name)
 
 
 def _again(cls: type[System], path: str, text: str, includes: Any, overrides: Any, own: Origins | None = None) -> System:

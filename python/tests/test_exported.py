@@ -67,3 +67,70 @@ def test_residuals_for_opty_vanish_along_the_motion(name: str, gallery: Path) ->
     left = found.equations.xreplace(moving).xreplace(state).xreplace(found.parameters).xreplace({found.time: 0})
     np.testing.assert_allclose(np.array(left, dtype=float), 0, atol=1e-10)
     assert all(isinstance(own, sympy.Symbol) for own in found.parameters)
+
+
+def value(expression: Any, known: dict[Any, float], values: dict[Any, float]) -> float:
+    """The number that an expression is, part by part."""
+    import math
+
+    from chetaev.trees import nodes
+
+    for own in nodes([expression]):
+        if own in known:
+            values[own] = known[own]
+        elif own in values:
+            continue
+        elif own.is_Number or own.is_NumberSymbol:
+            values[own] = float(own)
+        elif own.is_Add:
+            values[own] = math.fsum(values[part] for part in own.args)
+        elif own.is_Mul:
+            values[own] = math.prod(values[part] for part in own.args)
+        elif own.is_Pow:
+            values[own] = values[own.base] ** values[own.exp]
+        elif own.is_Function and not hasattr(own.func, "_undef_sympify"):
+            function = getattr(math, own.func.__name__, None)
+            if function is not None and all(part in values for part in own.args):
+                values[own] = function(*(values[part] for part in own.args))
+    return values[expression]
+
+
+@pytest.mark.parametrize("name", ["whipple-bicycle", "trailer"])
+def test_residuals_vanish_along_a_motion_with_its_multipliers(name: str) -> None:
+    """The motion is integrated from the solved equations; the residuals have been derived with the multipliers in them."""
+    system = System.from_gallery(name)
+    found = system.to_opty()
+    assert found.equations.shape == (len(found.states) + len(found.unknowns), 1)
+    assert len(found.unknowns) == {"whipple-bicycle": 5, "trailer": 4}[name]
+    motion = system.simulate(t_end=1, tolerance=1e-12)
+    largest = 0.0
+    for row in np.linspace(0, len(motion) - 1, 5, dtype=int):
+        known: dict[Any, float] = {found.time: float(motion.t[row]), **found.parameters}
+        for own in found.states:
+            column = own.func.__name__
+            column = f"{column.removesuffix('_dot')}'" if column.endswith("_dot") else column
+            known |= {own: float(motion[column][row]), own.diff(found.time): float(motion[f"{column}'"][row])}
+        known |= {own: float(motion[own.func.__name__][row]) for own in found.unknowns}
+        parts: dict[Any, float] = {}
+        left = [value(own, known, parts) for own in found.equations]
+        largest = max(largest, max(map(abs, left)))
+        # The test can fail: another acceleration is none of the motion.
+        speed = found.states[-1].diff(found.time)
+        other = [value(own, known | {speed: known[speed] + 1}, {}) for own in found.equations]
+        assert max(map(abs, other)) > 1e-3
+    assert largest < 1e-8
+
+
+def test_the_form_is_regular_where_the_motion_starts() -> None:
+    """The shortest equations of the trailer divide by what vanishes at its start; another form is taken, and gives the rates of the compiled ones."""
+    pytest.importorskip("jax").config.update("jax_enable_x64", True)
+    system = System.from_gallery("trailer")
+    found = system.to_jax()
+    rates = np.asarray(found.rhs(0.0, found.start, found.p))
+    assert np.all(np.isfinite(rates))
+    f = system.compile()
+    expected = dict(zip(f.state, f.rhs(f.t_start, f.start)))
+    for name, rate in zip(found.state, rates, strict=True):
+        if name in expected:
+            assert abs(rate - expected[name]) < 1e-9, name
+    assert set(system.coordinates) <= set(found.state)

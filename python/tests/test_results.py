@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -268,3 +269,43 @@ def test_ctrl_c_ends_long_work(work: str) -> None:
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, check=True)
     # 0.2 s on a machine of its own; a busy one takes turns.
     assert done.stdout and float(done.stdout) < 2, done
+
+
+def test_results_are_tables_and_sentences_in_notebooks() -> None:
+    """Whatever a result shows, it is no raw data: no braces of JSON, no text in a fixed width but what unfolds."""
+    sleigh, governor = System.from_gallery("chaplygin-sleigh"), System.from_gallery("watt-governor")
+    study = sleigh.study(claims="model,energy.integral,hamilton.stationary", t_end=1)
+    shown = {
+        "motion": (sleigh.simulate(t_end=1), ["at the start", "largest change", "<code>phi'</code>".replace("'", "&#x27;")]),
+        "steady": (sleigh.steady(), ["u = u_0"]),
+        "linear": (sleigh.linearize(), ["79/160", "eigenvalues"]),
+        "stability": (sleigh.stability(over="ahead=-2:2"), ["&lt; ahead &lt;", "critical value", "<svg"]),
+        "curve": (governor.follow(over="eps=0.1:1", points=5), ["Hopf", "11 points"]),
+        "sweep": (sleigh.sweep(vary={"a": "0.1:0.5:5"}, t_end=1), ["5 trajectories", "vary_a"]),
+        "sensitivity": (sleigh.sensitivity("a", [0.0, 1.0]), ["d x/d a"]),
+        "study": (study, ["Decided in exact arithmetic", "It took "]),
+    }
+    for name, (result, words) in shown.items():
+        page = result._repr_mimebundle_()["text/html"]
+        assert "<table" in page, name
+        for word in words:
+            assert word in page, (name, word)
+        opened = re.sub(r"<details>.*?</details>", "", page, flags=re.DOTALL)
+        assert "<pre>" not in opened and '{"' not in page and "&quot;" not in page, name
+
+
+def test_evidence_is_all_there_in_sentences() -> None:
+    from chetaev import notebook
+
+    verdict = {
+        "claim": "a.b", "subject": None, "verdict": "refuted", "detail": "it is not", "method": "exact", "on": "everywhere", "samples": 3, "seed": 17,
+        "error_bound": "2^-139", "residual": None, "expected": ["proved"], "seconds": 0.0123, "formulas": ["x^2"], "condition": None,
+        "counterexample": {"point": [{"name": "J", "exact": "2", "enclosure": None}], "quantity": "the residual", "residual": ["-1.5", "-1.4"]},
+        "of_a_later_version": {"bound": 7},
+    }
+    said = re.sub(r"<[^>]+>", " ", notebook.evidence(verdict))
+    for words in (
+        "Decided in exact arithmetic, everywhere.", "3 samples were looked at, drawn with the seed 17.", "at most 2^-139", "The model expects: proved.",
+        "It took 0.012 s.", "x^2", "at J = 2: the residual lies between -1.5 and -1.4", "Of a later version: bound 7.",
+    ):
+        assert words in said, words
