@@ -8,13 +8,19 @@ use crate::isolation::Root;
 use crate::real_roots::{real_roots, sign_at};
 use crate::steady::closed;
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::meter;
 use chetaev_symbolic::{Expr, Graph, Symbol};
+use dashu_int::ops::BitTest;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
 /// Hurwitz's determinants Δ₁ … Δ_m of a polynomial, its coefficients given with the constant first.
 pub fn determinants(g: &Graph, coefficients: &[Expr]) -> Vec<Expr> {
     let m = coefficients.len().saturating_sub(1);
+    let leading_first: Vec<Expr> = coefficients.iter().rev().copied().collect();
+    if let Some(found) = of_numbers(g, &leading_first) {
+        return found;
+    }
     // a₀ is the leading coefficient in Hurwitz's matrix.
     let a = |i: i64| match usize::try_from(i) {
         Ok(i) if i <= m => coefficients[m - i],
@@ -28,6 +34,87 @@ pub fn determinants(g: &Graph, coefficients: &[Expr]) -> Vec<Expr> {
     (1..=m)
         .map(|size| closed(g, determinant(g, &minor(size))))
         .collect()
+}
+
+/// The determinants where all coefficients are rational numbers, the leading one first; `None` where one is none.
+fn of_numbers(g: &Graph, coefficients: &[Expr]) -> Option<Vec<Expr>> {
+    let numbers = coefficients.iter().map(|&e| g.as_number(e).cloned());
+    let numbers: Vec<RBig> = numbers.collect::<Option<_>>()?;
+    let m = numbers.len().saturating_sub(1);
+    let mut found = products_of_routh(&numbers);
+    for size in found.len() + 1..=m {
+        found.push(determinant_of_numbers(hurwitz_matrix(&numbers, size)));
+    }
+    Some(found.into_iter().map(|own| g.number(own)).collect())
+}
+
+/// The determinants up to the first that vanishes: the products of the first column of Routh's array (Routh 1877), which takes m² operations.
+fn products_of_routh(coefficients: &[RBig]) -> Vec<RBig> {
+    let every_second = |from: usize| -> Vec<RBig> {
+        coefficients[from.min(coefficients.len())..]
+            .iter()
+            .step_by(2)
+            .cloned()
+            .collect()
+    };
+    let (mut above, mut row) = (every_second(0), every_second(1));
+    let (mut found, mut product) = (Vec::new(), RBig::ONE);
+    while let Some(first) = row.first() {
+        product *= first;
+        found.push(product.clone());
+        if first.is_zero() {
+            break;
+        }
+        let factor = &above[0] / first;
+        let entry = |j: usize| match row.get(j) {
+            Some(own) => &above[j] - &factor * own,
+            None => above[j].clone(),
+        };
+        meter::spend((above.len() * (1 + length(&factor))) as u64);
+        let next = (1..above.len()).map(entry).collect();
+        (above, row) = (row, next);
+    }
+    found
+}
+
+/// Hurwitz's matrix, of coefficients with the leading one first.
+fn hurwitz_matrix(coefficients: &[RBig], size: usize) -> Vec<Vec<RBig>> {
+    let entry = |row: usize, column: usize| {
+        let place = (2 * (column + 1)).checked_sub(row + 1);
+        let own = place.and_then(|at| coefficients.get(at));
+        own.cloned().unwrap_or(RBig::ZERO)
+    };
+    let row = |r: usize| (0..size).map(|c| entry(r, c)).collect();
+    (0..size).map(row).collect()
+}
+
+fn determinant_of_numbers(mut rows: Vec<Vec<RBig>>) -> RBig {
+    let mut product = RBig::ONE;
+    for at in 0..rows.len() {
+        let Some(pivot) = (at..rows.len()).find(|&r| !rows[r][at].is_zero()) else {
+            return RBig::ZERO;
+        };
+        if pivot != at {
+            rows.swap(pivot, at);
+            product = -product;
+        }
+        product *= &rows[at][at];
+        let (above, below) = rows.split_at_mut(at + 1);
+        let own = &above[at];
+        for row in below.iter_mut().filter(|row| !row[at].is_zero()) {
+            let factor = &row[at] / &own[at];
+            meter::spend((row.len() * (1 + length(&factor))) as u64);
+            for (entry, by) in row[at..].iter_mut().zip(&own[at..]) {
+                *entry -= &factor * by;
+            }
+        }
+    }
+    product
+}
+
+/// The length of a number in words.
+fn length(number: &RBig) -> usize {
+    (number.numerator().bit_len() + number.denominator().bit_len()) / 64
 }
 
 /// What becomes of the eigenvalues at a boundary.
@@ -257,6 +344,48 @@ impl Ranges {
         Ranges {
             boundaries,
             regions,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(list: &[i64]) -> Vec<RBig> {
+        list.iter().map(|&x| RBig::from(x)).collect()
+    }
+
+    /// Of 1 + 2 λ + 2 λ² + λ³ they are 2, 2·2 − 1·1 = 3 and 3, and the same with entries that the elimination meets as zeros.
+    #[test]
+    fn minors_of_numbers_are_those_of_expressions() {
+        let g = Graph::new();
+        let polynomials: [&[i64]; 5] = [
+            &[1, 2, 2, 1],
+            &[1, 0, 1],
+            &[1, 1, 1, 1],
+            &[3, 0, 0, 5, 2],
+            &[-4, 7, 1, 0, 2, 3],
+        ];
+        let known = |list: &[i64]| {
+            determinants(
+                &g,
+                &numbers(list)
+                    .into_iter()
+                    .map(|x| g.number(x))
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let texts: Vec<String> = known(polynomials[0]).iter().map(|&e| g.text(e)).collect();
+        assert_eq!(texts, ["2", "3", "3"]);
+        for list in polynomials {
+            // With a symbol in the place of a coefficient there is no number, and the minors are expanded.
+            let symbol = g.symbol("c", 0);
+            let mut own: Vec<Expr> = numbers(list).into_iter().map(|x| g.number(x)).collect();
+            let value = std::mem::replace(&mut own[0], symbol);
+            let expected = g.substitute_all(&determinants(&g, &own), &[(symbol, value)]);
+            let expected: Vec<Expr> = expected.into_iter().map(|e| closed(&g, e)).collect();
+            assert_eq!(known(list), expected, "{list:?}");
         }
     }
 }

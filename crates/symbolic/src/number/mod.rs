@@ -4,6 +4,7 @@
 //! (degrees, heights, starting guesses), never as values a proof rests on.
 
 pub mod ball;
+pub mod characteristic_polynomial;
 pub mod modular_matrix;
 pub mod modular_polynomial;
 pub mod prime;
