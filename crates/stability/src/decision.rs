@@ -2,6 +2,7 @@
 //! in the motion only.
 
 use crate::bundle::{bundles, Bundle};
+use crate::characteristic::{LARGEST as VARIABLES, LARGEST_IN_NUMBERS};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Boundary, Crossing, Ranges};
 use crate::integrals::Jet;
@@ -164,7 +165,11 @@ pub(crate) fn about<'a>(
 }
 
 /// The zero in an enclosure in closed form, where it is rational or one of these functions has a factor of second degree that vanishes there.
-fn closed_form(g: &Graph, (symbol, root): (Symbol, &Root), functions: &[Expr]) -> Option<Expr> {
+pub(crate) fn closed_form(
+    g: &Graph,
+    (symbol, root): (Symbol, &Root),
+    functions: &[Expr],
+) -> Option<Expr> {
     if root.low == root.high {
         return Some(g.number(root.low.clone()));
     }
@@ -282,10 +287,13 @@ fn decided(cx: &Context<'_>, subject: Option<&str>, statement: &dyn Statement) -
         None => return Verdict::undecided("the model names no such steady motion"),
     };
     if about.question.polynomial.is_none() {
-        return Verdict::undecided(format!(
-            "the system has {} variables, more than an exact characteristic polynomial is made for",
-            about.question.linear.variables.len()
-        ));
+        return match about.question.over {
+            Some(symbol) => instead(cx, &about, statement, symbol),
+            None => Verdict::undecided(format!(
+                "the system has {} variables, and an exact characteristic polynomial is made of at most {VARIABLES}, of rational numbers of at most {LARGEST_IN_NUMBERS}",
+                about.question.linear.variables.len()
+            )),
+        };
     }
     match about.question.over {
         Some(symbol) => match Pieces::new(cx, &about, statement, symbol) {
@@ -314,6 +322,17 @@ fn instead(
             about.graph().symbol_text(symbol)
         )),
     }
+}
+
+/// What the eigenvalues do at a value of the parameter; `None` where that was not decided, or there is no such motion.
+pub(crate) fn place_exactly(
+    cx: &Context<'_>,
+    about: &About<'_>,
+    (symbol, at): (Symbol, Expr),
+) -> Option<Place> {
+    let (system, motion) = (about.expansion.system, about.expansion.motion);
+    let there = About::new(cx, motion, &values_at(system, symbol, at), None).ok()?;
+    there.question.place_at(there.graph(), None)
 }
 
 /// Whether what the motion states has finite values for these values of the parameters.

@@ -1,13 +1,14 @@
 //! Values of a parameter at which stability changes.
 
-use crate::decision::about;
+use crate::decision::{about, closed_form, place_exactly, About};
 use crate::evidence::motions;
-use crate::hurwitz::{Boundary, Crossing, Ranges};
-use crate::question::{parameter_of_motion, Place, Question};
+use crate::hurwitz::{Boundary, Crossing, Ranges, Region};
+use crate::question::{parameter_of_motion, Place};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 /// `stability.critical#p`: the values of p at which the stability of a motion that contains it changes.
 #[derive(Clone, Copy, Debug)]
@@ -70,36 +71,116 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     let (g, question) = (about.graph(), &about.question);
     let symbol = question.over?;
     let bound = question.bound(g)?;
-    let ranges = question.ranges(g, &-bound.clone(), &bound)?.joined();
+    let over = Over {
+        cx,
+        about: &about,
+        symbol,
+        ranges: question.ranges(g, &-bound.clone(), &bound)?,
+        functions: question.boundary_functions(g),
+    };
     let parameter = g.symbol_text(symbol);
-    let listed = listed(question, &ranges, &parameter);
-    Some(match listed.as_slice() {
+    let mut listed = Vec::new();
+    let mut open = Vec::new();
+    for boundary in &over.ranges.boundaries {
+        match over.change(boundary) {
+            Change::Is(how) => listed.push(format!("{} ({how})", over.place(boundary))),
+            Change::Perhaps => open.push(over.place(boundary)),
+            Change::None => {}
+        }
+    }
+    let mut said = match listed.as_slice() {
         [] => format!("the stability of {name} is the same for all {parameter}"),
         list => format!("the stability of {name} changes at {}", list.join(", at ")),
-    })
+    };
+    if !open.is_empty() {
+        let _ = write!(
+            said,
+            "; on both sides of {} it is the same, and of that value alone, where two eigenvalues are opposite, nothing is said",
+            open.join(" and of ")
+        );
+    }
+    Some(said)
 }
 
-fn listed(question: &Question, ranges: &Ranges, parameter: &str) -> Vec<String> {
-    let place = |side: Option<bool>| side.map(|is_left| question.place(is_left));
-    let text = |boundary: &Boundary| {
-        let root = &boundary.root;
-        let before = ranges.regions.iter().rfind(|r| r.high <= root.low);
-        let after = ranges.regions.iter().find(|r| r.low >= root.high);
-        let (before, after) = (
-            place(before.map(|r| r.is_left)),
-            place(after.map(|r| r.is_left)),
-        );
-        let changes = before != after || boundary.crossing != Crossing::Touching;
-        changes.then(|| {
-            format!(
-                "{parameter} in {} ({}{})",
-                root.text(),
-                how(boundary.crossing),
-                towards(before, after)
-            )
-        })
-    };
-    ranges.boundaries.iter().filter_map(text).collect()
+/// A motion over all values of its parameter.
+struct Over<'a, 'c> {
+    cx: &'a Context<'c>,
+    about: &'a About<'c>,
+    symbol: Symbol,
+    ranges: Ranges,
+    /// At whose zeros the boundaries lie.
+    functions: Vec<Expr>,
+}
+
+/// What is known of a boundary.
+enum Change {
+    /// The stability changes there, and how.
+    Is(String),
+    /// It may be another at that value alone.
+    Perhaps,
+    /// It is the same there and on both sides.
+    None,
+}
+
+impl Over<'_, '_> {
+    fn change(&self, boundary: &Boundary) -> Change {
+        let place = |side: Option<&Region>| side.map(|own| self.about.question.place(own.is_left));
+        let (root, regions) = (&boundary.root, &self.ranges.regions);
+        let before = place(regions.iter().rfind(|r| r.high <= root.low));
+        let after = place(regions.iter().find(|r| r.low >= root.high));
+        let how = how(boundary.crossing);
+        if before != after {
+            return Change::Is(format!("{how}{}", towards(before, after)));
+        }
+        // What is unstable on both sides may stand on the axis between, as a body at rest that no spin makes stable.
+        let there = self
+            .exact(boundary)
+            .and_then(|at| place_exactly(self.cx, self.about, (self.symbol, at)));
+        match (there, before) {
+            (Some(there), Some(beside)) if there == beside => match boundary.crossing {
+                Crossing::Touching => Change::None,
+                _ => Change::Is(format!("{how}, {} on both sides and there", word(beside))),
+            },
+            (Some(Place::NotLeft) | None, _) | (_, None) => match boundary.crossing {
+                Crossing::Touching => Change::Perhaps,
+                _ => Change::Is(how.into()),
+            },
+            (Some(there), Some(beside)) => Change::Is(format!(
+                "{} there alone, {} on both sides",
+                word(there),
+                word(beside)
+            )),
+        }
+    }
+
+    /// The value in closed form.
+    fn exact(&self, boundary: &Boundary) -> Option<Expr> {
+        closed_form(
+            self.about.graph(),
+            (self.symbol, &boundary.root),
+            &self.functions,
+        )
+    }
+
+    /// The value, in closed form where it has one, and its enclosure.
+    fn place(&self, boundary: &Boundary) -> String {
+        let g = self.about.graph();
+        let (name, root) = (g.symbol_text(self.symbol), &boundary.root);
+        match self.exact(boundary).filter(|_| root.low != root.high) {
+            Some(exact) => format!("{name} = {} in {}", g.text(exact), root.text()),
+            None => format!("{name} in {}", root.text()),
+        }
+    }
+}
+
+/// Where the eigenvalues lie, in a word.
+fn word(place: Place) -> &'static str {
+    match place {
+        Place::Left => "asymptotically stable",
+        Place::OnAxis => "with all eigenvalues on the axis or left of it",
+        Place::Right => "unstable",
+        Place::NotLeft => "not asymptotically stable",
+    }
 }
 
 /// What happens at a boundary, in words.

@@ -369,6 +369,12 @@ be = 0
     assert_eq!(kane.said("stability.asymptotic", "spinning"), "refuted");
     // At rest it stands by its energy; spun it is stable in neither direction.
     assert_eq!(kane.said("stability.nonlinear", "spinning"), "n = 0");
+    // So the stability is another there alone.
+    let critical = kane.verdict("stability.critical", "n");
+    assert_eq!(
+        critical.detail(),
+        "the stability of spinning changes at n in {0} (with all eigenvalues on the axis or left of it there alone, unstable on both sides)"
+    );
     let other = stone([
         "0.1",
         "0.06",
