@@ -2,13 +2,14 @@
 
 use crate::guess::near;
 use crate::problem::LinearizationError;
-use crate::reduction::{ClosedSystem, Speeds};
-use crate::steady::{at_point, completed, solution, State};
+use crate::reduction::{ClosedSystem, Place, Speeds};
+use crate::steady::{at_point, completed, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::{Expr, Graph, Symbol};
+use nalgebra::DMatrix;
 
 /// What is linearized about what.
 pub struct Expansion<'a> {
@@ -53,12 +54,24 @@ impl<'a> Expansion<'a> {
     ) -> Result<Expansion<'a>, LinearizationError> {
         let found = near(system, terms, selection, (motion, values))?;
         let state = completed(&found, system, terms, &selection.rows, values)?;
-        let point = point(system, &state, values);
+        let numbers = point(system, &state, values);
+        let rows = selection.rows.iter();
+        let gradients: Vec<Expr> = rows.flat_map(|&row| terms.jacobian[row].clone()).collect();
+        let is_first_order = terms.order == 1;
+        if is_first_order && is_singular(system, &gradients, &[&state.values, values], &numbers) {
+            return Err(LinearizationError::Singular {
+                motion: motion.name.clone(),
+            });
+        }
+        let place = Place {
+            numbers: &numbers,
+            open: &state.without_position,
+        };
         let about = Expansion {
             system,
             terms,
             selection,
-            own: ClosedSystem::about(system, terms, selection, (speeds, &point))?,
+            own: ClosedSystem::about(system, terms, selection, (speeds, place))?,
             motion,
             state,
             values: values.to_vec(),
@@ -282,6 +295,34 @@ fn point(system: &System, state: &State, values: &[(Expr, Expr)]) -> Vec<(Symbol
     let known = known.filter_map(|&(symbol, value)| Some((g.as_symbol(symbol)?, number(value)?)));
     known.collect()
 }
+
+/// Whether gradients of constraints, one row of n entries after the other, depend on each other where these values are put in: singular values say
+/// where that may be, and exact elimination whether it is.
+fn is_singular(
+    system: &System,
+    gradients: &[Expr],
+    values: &[&[(Expr, Expr)]],
+    numbers: &[(Symbol, f64)],
+) -> bool {
+    let (g, n) = (&system.graph, system.n());
+    let known = |s: Symbol| numbers.iter().find(|(own, _)| *own == s).map(|own| own.1);
+    let entries = g.evaluate_f64(gradients, &|s| known(s).or(Some(SOMEWHERE)));
+    let entries = entries.unwrap_or_default();
+    if entries.is_empty() || !entries.iter().all(|x| x.is_finite()) {
+        return false;
+    }
+    let count = gradients.len() / n;
+    let singular = DMatrix::from_row_slice(count, n, &entries).singular_values();
+    if singular.min() > CLOSE * singular.max() {
+        return false;
+    }
+    let exact = at_point(g, gradients, values);
+    let mut exact: Vec<Vec<Expr>> = exact.chunks(n).map(<[Expr]>::to_vec).collect();
+    echelon(g, &mut exact, n).columns.len() < count
+}
+
+/// A singular value below this part of the largest may be zero.
+const CLOSE: f64 = 1e-9;
 
 /// Bounds of a number, with 20 digits.
 fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {

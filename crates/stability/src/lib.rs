@@ -7,7 +7,7 @@
 //!    functions about them; [`problem`] says why that cannot be.
 //! 2. *On which variables do the equations depend?* [`reduction`]: the smallest closed system of coordinates and quasi-velocities.
 //! 3. *What are the linear equations?* [`linearization`]: `E δz' = F δz`, exact in the parameters, on the tangent space of the finite
-//!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do.
+//!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do, [`descriptor`] in all variables.
 //! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family split off; [`spectrum`]: its factors, those that are
 //!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] in double precision, [`enclosure`] one that is proved.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
@@ -27,6 +27,7 @@ pub mod characteristic;
 pub mod claims;
 mod critical;
 mod decision;
+pub mod descriptor;
 pub mod eigenvalues;
 pub mod enclosure;
 mod evidence;

@@ -54,6 +54,12 @@ pub enum LinearizationError {
         /// Lower and upper bound of it, where it is a number.
         enclosure: Option<(String, String)>,
     },
+    /// The constraints do not determine the accelerations.
+    #[error("at the motion `{motion}` the gradients of the constraints depend on each other, so that nothing is said of its neighbours: it is a singular place of the constraints")]
+    Singular {
+        /// The motion.
+        motion: String,
+    },
     /// Something changes that should be constant.
     #[error("the motion `{motion}` is not steady: {quantity} has the rate {rate}")]
     NotSteady {

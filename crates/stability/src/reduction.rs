@@ -28,6 +28,15 @@ pub enum Speeds {
     Independent,
 }
 
+/// The state about which a closed system must serve.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// Values of symbols in numbers.
+    pub numbers: &'a [(Symbol, f64)],
+    /// Coordinates without a position. At the first of these that is not ignorable the system ends as it is: there are no linear equations then.
+    pub open: &'a [usize],
+}
+
 /// `M P' = b` with the rates of the coordinates that occur.
 #[derive(Clone, Debug)]
 pub struct ClosedSystem {
@@ -42,7 +51,7 @@ pub struct ClosedSystem {
 }
 
 impl ClosedSystem {
-    /// The closed system of a system of first order whose masses have no laws of their own, in speeds of choice; `point` is the state about
+    /// The closed system of a system of first order whose masses have no laws of their own, in speeds of choice; `place` is the state about
     /// which they must serve.
     ///
     /// # Errors
@@ -51,8 +60,9 @@ impl ClosedSystem {
         system: &System,
         terms: &MotionTerms,
         selection: &Selection,
-        (speeds, point): (Speeds, &[(Symbol, f64)]),
+        (speeds, place): (Speeds, Place<'_>),
     ) -> Result<ClosedSystem, LinearizationError> {
+        let point = place.numbers;
         if terms.order > 1 {
             return Err(LinearizationError::OrderTooHigh { order: terms.order });
         }
@@ -95,7 +105,7 @@ impl ClosedSystem {
             system,
             characteristics,
             &equations,
-            &standing,
+            (&standing, place.open),
         ))
     }
 
@@ -103,7 +113,7 @@ impl ClosedSystem {
         system: &System,
         characteristics: Characteristics,
         equations: &ReducedEquations,
-        standing: &[usize],
+        (standing, open): (&[usize], &[usize]),
     ) -> ClosedSystem {
         let g = &system.graph;
         let k = characteristics.k();
@@ -119,6 +129,9 @@ impl ClosedSystem {
                 None => {
                     coordinates.push(j);
                     entries.push(characteristics.velocities[j]);
+                    if open.contains(&j) {
+                        break;
+                    }
                 }
             }
         }

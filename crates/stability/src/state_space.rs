@@ -62,12 +62,6 @@ impl Expansion<'_> {
         let inputs = self.inputs(outputs);
         let inverse = self.inverse(linear)?;
         let direct = self.by_inputs(&inputs);
-        let size = linear.names.len();
-        let unit = |r: usize| {
-            (0..size)
-                .map(|c| if r == c { g.one() } else { g.zero() })
-                .collect()
-        };
         let (mut names, mut c, mut d) = (Vec::new(), Vec::new(), Vec::new());
         for (name, e) in outputs {
             let (row, by) = self.output(linear, name, *e, &inputs)?;
@@ -75,12 +69,7 @@ impl Expansion<'_> {
             c.push(row);
             d.push(by);
         }
-        if outputs.is_empty() {
-            names.clone_from(&linear.names);
-            c = (0..size).map(unit).collect();
-            d = vec![vec![g.zero(); inputs.len()]; size];
-        }
-        Ok(StateSpace {
+        let mut found = StateSpace {
             states: linear.names.clone(),
             inputs: inputs.iter().map(|&s| g.symbol_text(s)).collect(),
             outputs: names,
@@ -88,7 +77,11 @@ impl Expansion<'_> {
             b: product(g, &inverse, &direct),
             c,
             d,
-        })
+        };
+        if outputs.is_empty() {
+            found.show_states(g);
+        }
+        Ok(found)
     }
 
     /// E⁻¹; only the mass matrix in it is no unit matrix.
@@ -116,11 +109,16 @@ impl Expansion<'_> {
 
     /// The controls and derivatives of controls that occur in the equations of motion or in outputs.
     fn inputs(&self, outputs: &[(String, Expr)]) -> Vec<Symbol> {
-        let g = self.graph();
         let mut all = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
         let stated: Vec<Expr> = outputs.iter().map(|(_, e)| *e).collect();
         all.extend(self.own.characteristics.restrict(self.system, &stated));
-        let occurring = g.symbols_in(&all);
+        self.inputs_of(&all)
+    }
+
+    /// The controls and derivatives of controls that occur in expressions.
+    pub(crate) fn inputs_of(&self, all: &[Expr]) -> Vec<Symbol> {
+        let g = self.graph();
+        let occurring = g.symbols_in(all);
         let mut found = Vec::new();
         for control in &self.system.controls {
             let mut own: Vec<Symbol> = occurring
@@ -204,6 +202,19 @@ fn s(g: &Graph) -> Symbol {
 }
 
 impl StateSpace {
+    /// Makes the states the outputs.
+    pub(crate) fn show_states(&mut self, g: &Graph) {
+        let size = self.states.len();
+        let unit = |r: usize| {
+            (0..size)
+                .map(|c| if r == c { g.one() } else { g.zero() })
+                .collect()
+        };
+        self.outputs.clone_from(&self.states);
+        self.c = (0..size).map(unit).collect();
+        self.d = vec![vec![g.zero(); self.inputs.len()]; size];
+    }
+
     /// The transfer functions from each input (column) to each output (row), rational functions of `s`; `None` where the system is large.
     pub fn transfer(&self, g: &Graph) -> Option<Vec<Vec<Expr>>> {
         let n = self.states.len();

@@ -69,7 +69,7 @@ pub(crate) fn completed(
 }
 
 /// A place of a coordinate on which nothing depends, away from the singular places of angles.
-const SOMEWHERE: f64 = 0.377;
+pub(crate) const SOMEWHERE: f64 = 0.377;
 
 /// All positions and velocities of a motion in numbers, with those of parameters; `values` are exact ones of parameters. Coordinates that the
 /// motion leaves open are somewhere.

@@ -2,8 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 use crate::common::Case;
+use chetaev_stability::characteristic::Characteristic;
+use chetaev_stability::eigenvalues::eigenvalues;
+use chetaev_stability::hurwitz::determinants;
 use chetaev_stability::linearization::LinearizationError;
+use chetaev_stability::spectrum::Spectrum;
 use chetaev_symbolic::meter::{within, Work};
+use nalgebra::DMatrix;
 use std::fmt::Write as _;
 
 /// Links on blades, each hinge a ahead of a blade and b behind the one before; nothing is assumed of a and b. With `steering` each blade turns
@@ -117,4 +122,78 @@ L = "1/2 m (x'^2 + y'^2) - m g y"
             other => panic!("{other:?}"),
         }
     }
+}
+
+/// Where two constraints touch, as a bob on a rod that also slides on one of two crossing planes at their line, nothing moves by the equations, and that is
+/// what is said: the motion is not called unsteady.
+#[test]
+fn a_singular_place_is_called_one() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y", "z"]
+parameters = { m = 1, l = 1, g = 10 }
+[lagrangian]
+L = "1/2 m (x'^2 + y'^2 + z'^2) - m g z"
+[constraints]
+rod = "x^2 + y^2 + z^2 = l^2"
+planes = "x y = 0"
+"#,
+    );
+    let at = |x: &str, z: &str| {
+        let still = [("x'", "0"), ("y'", "0"), ("z'", "0")];
+        let place = [("x", x), ("y", "0"), ("z", z)];
+        case.motion(&[&place[..], &still[..]].concat())
+    };
+    let singular = case.linear(&at("0", "-l"), "");
+    assert!(
+        matches!(singular, Err(LinearizationError::Singular { .. })),
+        "{singular:?}"
+    );
+    // Aside of the line the bob falls.
+    let falling = case.linear(&at("3/5", "-4/5"), "");
+    assert!(
+        matches!(falling, Err(LinearizationError::NotSteady { .. })),
+        "{falling:?}"
+    );
+}
+
+/// Seventeen variables in numbers: the polynomial has the values of the determinant of λE − F, whose three zeros are the speed, the heading and the yaw
+/// rate, and by Hurwitz's determinants the zeros that are left lie where those in double precision lie.
+#[test]
+fn a_long_chain_has_its_polynomial_in_numbers() {
+    let case = chain(15, false);
+    let g = &case.system.graph;
+    let motion = case.system.steady[0].clone();
+    let linear = case.linear(&motion, "").unwrap();
+    assert!(linear.variables.len() > chetaev_stability::characteristic::LARGEST);
+    let polynomial = Characteristic::of(g, &linear).expect("a polynomial");
+    let zeros = polynomial.zeros + polynomial.further_zeros;
+    assert_eq!((zeros, polynomial.degree()), (3, 14));
+    let coefficients: Vec<f64> = polynomial
+        .coefficients
+        .iter()
+        .map(|&e| case.number(e, &[]))
+        .collect();
+    let (left, right) = (
+        case.numbers(&linear.left, &[]),
+        case.numbers(&linear.right, &[]),
+    );
+    for at in [-2.5, 0.3, 1.0, 7.0] {
+        let n = left.len();
+        let matrix = DMatrix::from_fn(n, n, |r, c| at * left[r][c] - right[r][c]);
+        let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
+        let value = value * at.powi(zeros as i32);
+        let expected = matrix.determinant();
+        assert!(
+            (value / expected - 1.0).abs() < 1e-9,
+            "{at}: {value} {expected}"
+        );
+    }
+    let found = eigenvalues(&left, &right).unwrap();
+    let are_left = found.iter().filter(|l| l.norm() > 0.1).all(|l| l.re < 0.0);
+    let spectrum = Spectrum::of(g, &polynomial);
+    let list = spectrum.deciding(g).into_iter();
+    let all = list.flat_map(|own| determinants(g, &own.coefficients));
+    let are_positive = all.map(|e| case.number(e, &[])).all(|x| x > 0.0);
+    assert_eq!(are_positive, are_left);
 }

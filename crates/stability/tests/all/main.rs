@@ -3,6 +3,7 @@
 
 mod chains;
 mod common;
+mod descriptor;
 mod reference;
 mod steady_set;
 mod theorems;

@@ -1,0 +1,170 @@
+//! Linear equations in all variables: what they have in common with those in independent ones, and what multipliers do in them.
+#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+use crate::common::Case;
+use chetaev_mechanics::SteadyMotion;
+use chetaev_stability::descriptor::{Descriptor, DescriptorError};
+use chetaev_stability::expansion::Expansion;
+use chetaev_symbolic::Expr;
+use nalgebra::DMatrix;
+
+fn in_all(
+    case: &Case,
+    motion: &SteadyMotion,
+    outputs: &[&str],
+) -> Result<Descriptor, DescriptorError> {
+    let outputs: Vec<(String, Expr)> = outputs
+        .iter()
+        .map(|&text| (text.to_owned(), case.read(text)))
+        .collect();
+    let about = Expansion::new(
+        &case.system,
+        &case.prepared.terms,
+        &case.prepared.selection,
+        motion,
+        &case.values(""),
+    );
+    about.unwrap().descriptor(&outputs)
+}
+
+/// det(s E − A) at a number.
+fn determinant(
+    case: &Case,
+    (left, right): (&[Vec<Expr>], &[Vec<Expr>]),
+    free: &[(&str, f64)],
+    s: f64,
+) -> f64 {
+    let (left, right) = (case.numbers(left, free), case.numbers(right, free));
+    let n = left.len();
+    DMatrix::from_fn(n, n, |r, c| s * left[r][c] - right[r][c]).determinant()
+}
+
+/// The finite eigenvalues are those of the independent variables and zeros: the two determinants differ by a power of s and a constant.
+fn have_the_same_eigenvalues(
+    case: &Case,
+    motion: &SteadyMotion,
+    free: &[(&str, f64)],
+    zeros: usize,
+) {
+    let all = in_all(case, motion, &[]).unwrap();
+    let linear = case.linear(motion, "").unwrap();
+    assert_eq!(all.zeros, Some(zeros));
+    let quotient = |s: f64| {
+        let whole = determinant(case, (&all.left, &all.space.a), free, s);
+        whole / determinant(case, (&linear.left, &linear.right), free, s) / s.powi(zeros as i32)
+    };
+    let first = quotient(0.7);
+    assert!(first.abs() > 1e-9 && first.is_finite());
+    for s in [-0.4, 1.3, 2.9] {
+        assert!(
+            (quotient(s) / first - 1.0).abs() < 1e-8,
+            "{s}: {} {first}",
+            quotient(s)
+        );
+    }
+}
+
+#[test]
+fn eigenvalues_are_those_of_independent_variables() {
+    let case = Case::gallery("double-pendulum");
+    have_the_same_eigenvalues(&case, &case.system.steady[0].clone(), &[], 0);
+    // The heading of the bicycle is ignorable, and in all variables it is one.
+    let case = Case::gallery("whipple-bicycle");
+    let heading = case.motion(&[("psi", "0.3")]).positions;
+    let stated = case.system.steady[0].clone();
+    let motion = SteadyMotion {
+        positions: stated
+            .positions
+            .iter()
+            .zip(heading)
+            .map(|(own, other)| own.or(other))
+            .collect(),
+        ..stated
+    };
+    have_the_same_eigenvalues(&case, &motion, &[], 5);
+    // The place of the sleigh, and its heading.
+    let case = Case::gallery("chaplygin-sleigh");
+    have_the_same_eigenvalues(&case, &case.system.steady[0].clone(), &[], 3);
+}
+
+/// A bob on a rod in Cartesian coordinates: x'' = λ x/m about the lowest place, with the force λ that carries it, so that λ = −m g/l and the square of
+/// the frequency is g/l. The rod is stated twice, in other units, and its derivative beside it.
+#[test]
+fn what_carries_a_pendulum_draws_it_back() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+parameters = { m = 3, l = 2, g = 9.81 }
+[lagrangian]
+L = "1/2 m (x'^2 + y'^2) - m g y"
+[constraints]
+rod = "1/2 (x^2 + y^2 - l^2) = 0"
+again = "1000 x^2 + 1000 y^2 = 4000"
+rate = "x x' + y y' = 0"
+"#,
+    );
+    let at = |x: &str, y: &str| case.motion(&[("x", x), ("y", y), ("x'", "0"), ("y'", "0")]);
+    let all = in_all(&case, &at("0", "-l"), &["x", "y"]).unwrap();
+    assert_eq!(all.space.states, ["x", "y", "x'", "y'", "lambda_rod"]);
+    let a = case.numbers(&all.space.a, &[]);
+    // m x'' = λ₀ δx, m y'' = λ₀ δy + y δλ, and −l δy = 0.
+    assert!((a[2][0] + 3.0 * 9.81 / 2.0).abs() < 1e-12);
+    assert_eq!((a[3][4], a[4][1]), (-2.0, -2.0));
+    have_the_same_eigenvalues(&case, &at("0", "-l"), &[], 0);
+    have_the_same_eigenvalues(&case, &at("0", "l"), &[], 0);
+}
+
+/// Outputs that depend on the place, which nothing else depends on.
+#[test]
+fn the_place_is_an_output() {
+    let case = Case::gallery("chaplygin-sleigh");
+    let stated = case.system.steady[0].clone();
+    let given = |text: &[(&str, &str)]| SteadyMotion {
+        positions: case.motion(text).positions,
+        ..stated.clone()
+    };
+    match in_all(&case, &given(&[]), &[]) {
+        Err(DescriptorError::PositionMissing { coordinate, .. }) => assert_eq!(coordinate, "phi"),
+        other => panic!("{other:?}"),
+    }
+    let along = given(&[("phi", "0")]);
+    let all = in_all(&case, &along, &["x + 2 y", "sin(y)"]);
+    // The position y is missing for sin(y).
+    assert!(
+        matches!(all, Err(DescriptorError::PositionMissing { .. })),
+        "{all:?}"
+    );
+    let placed = given(&[("phi", "0"), ("y", "0"), ("x", "0")]);
+    let all = in_all(&case, &placed, &["x + 2 y", "sin(y)"]).unwrap();
+    let c = case.numbers(&all.space.c, &[]);
+    assert_eq!(
+        (&c[0][..3], &c[1][..3]),
+        (&[1.0, 2.0, 0.0][..], &[0.0, 1.0, 0.0][..])
+    );
+    // x runs on, and a function of it that is not linear changes its slope.
+    match in_all(&case, &placed, &["x^2"]) {
+        Err(DescriptorError::Runs { coordinate, .. }) => assert_eq!(coordinate, "x"),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A disc that goes round in a circle has no constant coefficients in Cartesian coordinates.
+#[test]
+fn circles_have_no_constant_coefficients() {
+    let case = Case::gallery("falling-rolling-disc");
+    let spinning = case
+        .system
+        .steady
+        .iter()
+        .find(|own| own.name == "spinning")
+        .unwrap();
+    let motion = SteadyMotion {
+        positions: vec![Some(case.system.graph.zero()); case.system.n()],
+        ..spinning.clone()
+    };
+    let found = in_all(&case, &motion, &[]);
+    assert!(
+        matches!(found, Err(DescriptorError::Runs { .. })),
+        "{found:?}"
+    );
+}
