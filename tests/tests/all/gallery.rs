@@ -509,9 +509,11 @@ fn replayed(study: &Studied, extent: Extent) -> Replayed {
         .filter(|l| l["result"] != "confirmed")
         .collect();
     failures.extend(unconfirmed.iter().map(|l| format!("{}: {l}", study.file)));
-    let late = unconfirmed
-        .iter()
-        .any(|l| l["detail"].as_str().is_some_and(|d| d.starts_with("time: ")));
+    let late = unconfirmed.iter().any(|l| {
+        l["detail"]
+            .as_str()
+            .is_some_and(|d| d.starts_with("time: "))
+    });
     Replayed { failures, late }
 }
 
