@@ -49,6 +49,7 @@ POINTS, SIGNS = 3, 12
 # For identities of degree up to 2^20 in all generators, whose coefficients have up to 2^20 digits: a point errs with probability at
 # most 2^20/2^60 (Schwartz, Zippel) and 2^20/2^50 (a prime that divides all coefficients), three with at most their cube.
 BOUND = f"{POINTS} points, each modulo a random prime of 61 bits; wrong with probability below 2^-87 for degrees up to 2^20"
+STATED = "; for the parameters stated"
 CONFIRMED, REJECTED, OPEN = "confirmed", "rejected", "not checkable here"
 
 
@@ -85,7 +86,7 @@ class Context:
             return True, BOUND
         try:
             if self.at_points(residuals, stated=True, **where):
-                return True, BOUND + "; for the parameters stated"
+                return True, BOUND + STATED
         except NotCheckable:
             pass  # A field with all roots of the numbers stated was not found: general parameters decide.
         if any(NODES[e][0] in ("log", "atan2", "exp") for e in reach(list(kinds) + self.system.top + [self.system.lagrangian])):
@@ -225,7 +226,9 @@ def examine(cx, verdict, table):
         if verdict["verdict"] in getattr(check, "says", {"proved"}):
             return check(cx, verdict)
         outcome, why = check(cx, {**verdict, "verdict": "proved"})
-        return (REJECTED, f"it is true: {why}") if outcome == CONFIRMED else (OPEN, "it is not proved, and no refutation of this kind is read")
+        if outcome != CONFIRMED:
+            return OPEN, "it is not proved, and no refutation of this kind is read"
+        return where_stated(cx, verdict, why) if why.endswith(STATED) else (REJECTED, f"it is true: {why}")
     except NotCheckable as why:
         return OPEN, str(why)
     except BadPoint as why:
@@ -236,6 +239,17 @@ def examine(cx, verdict, table):
         return REJECTED, f"what the record holds cannot be read: {slip!r}"
     except Exception as slip:  # What this program did not foresee is no fault of the record.
         return OPEN, f"this check ended with {slip!r}"
+
+
+def where_stated(cx, verdict, why):
+    """A condition beside what is true for the parameters stated and false for general ones: these have to satisfy it."""
+    parts = [part.split(" = ") for part in (verdict["condition"] or "").split(" and ")]
+    if any(len(part) != 2 for part in parts):
+        return OPEN, "it is true for the parameters stated, and the condition is not read"
+    sides = [[cx.read(side) for side in part] for part in parts]
+    if cx.at_points(lambda p: [(p.value(a) - p.value(b)) % p.p for a, b in sides], stated=True):
+        return CONFIRMED, f"false for general parameters, true for those stated, which satisfy the condition: {why}"
+    return REJECTED, f"it is true where the condition does not hold: {why}"
 
 
 def check(record, seed=0, only=""):

@@ -41,17 +41,23 @@ impl Start {
 
     /// Whether a function of the place has a value there that is not zero.
     pub(crate) fn is_nonzero(&self, g: &Graph, e: Expr) -> bool {
-        // What is not known, such as a control, is not looked at.
-        let value = g.evaluate_f64(&[e], &|s| Some(self.0.get(&s).copied().unwrap_or(0.7)));
-        value.is_ok_and(|values| values.iter().all(|x| x.is_finite() && x.abs() > 1e-9))
+        self.values(g, &[e])
+            .is_some_and(|values| values.iter().all(|x| x.abs() > 1e-9))
     }
 }
 
 impl Start {
+    /// Values there, if all are finite.
+    pub(crate) fn values(&self, g: &Graph, all: &[Expr]) -> Option<Vec<f64>> {
+        // What is not known, such as a control, is not looked at.
+        let point = |s: Symbol| Some(self.0.get(&s).copied().unwrap_or(0.7));
+        let values = g.evaluate_f64(all, &point).ok()?;
+        values.iter().all(|x| x.is_finite()).then_some(values)
+    }
+
     /// Whether the rows of a matrix are independent there.
     pub(crate) fn is_independent(&self, g: &Graph, rows: &[Vec<Expr>]) -> bool {
-        let point = |s: Symbol| Some(self.0.get(&s).copied().unwrap_or(0.7));
-        let Ok(values) = g.evaluate_f64(&rows.concat(), &point) else {
+        let Some(values) = self.values(g, &rows.concat()) else {
             return false;
         };
         let n = rows.first().map_or(0, Vec::len);
@@ -349,7 +355,11 @@ impl<'a> Elimination<'a> {
         for (i, &coefficient) in stated.iter().enumerate().filter(|(_, &c)| !g.is_zero(c)) {
             let value = self.velocities[i];
             match speeds.iter().position(|&s| g.as_symbol(value) == Some(s)) {
-                Some(place) => coefficients[place] = coefficient,
+                // Several velocities may be one speed: after x' = y', both are.
+                Some(place) => {
+                    let sum = g.add(&[coefficients[place], coefficient]);
+                    coefficients[place] = simplify_all(g, &[sum], &Options::default())[0];
+                }
                 None => {
                     known[i].1 = value;
                     composed.push(g.mul(&[coefficient, value]));

@@ -213,6 +213,20 @@ impl System {
         all.extend(&mut self.search_functions);
         all.extend(self.integrals.iter_mut().map(|(_, e)| e));
         all.extend(self.integral_forms.iter_mut().map(|form| &mut form.value));
+        let equations = self.equations.iter_mut().flat_map(|set| &mut set.equations);
+        all.extend(equations.flat_map(|(_, left, right)| [left, right]));
+        all.extend(self.start.iter_mut().map(|(_, e)| e));
+        for motion in &mut self.steady {
+            let given = motion.positions.iter_mut().chain(&mut motion.velocities);
+            all.extend(given.flatten());
+        }
+        for twin in &mut self.twins {
+            all.extend(
+                twin.map
+                    .iter_mut()
+                    .chain(twin.symbols.iter_mut().map(|(_, e)| e)),
+            );
+        }
         let variations = self.variations.iter_mut().flat_map(|v| &mut v.relations);
         all.extend(variations.map(|(_, e)| e));
         if let Some(complete) = &mut self.complete_integral {

@@ -65,6 +65,54 @@ fn what_the_program_proves_and_refutes_is_confirmed() {
     }
 }
 
+/// `z' = y x' + k x y'` is integrable for k = 1 alone, which the model states: a condition that the values stated satisfy is no contradiction.
+#[test]
+fn conditions_on_parameters_are_read() {
+    if !has_python() {
+        return;
+    }
+    let folder = scratch("checker-parameters");
+    let model = folder.join("model.toml");
+    let stated = "name = \"special\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[parameters]\nk = 1\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2 + z'^2)\"\n\
+        [constraints]\nc = \"z' = y x' + k x y'\"\n";
+    std::fs::write(&model, stated).expect("a model");
+    ok(&[
+        "study",
+        text(&model),
+        "--claims",
+        GROUPS,
+        "--out",
+        text(&folder),
+    ]);
+    let record = folder.join("study.json");
+    let finished = run(&["verify", text(&record), "--independent", "--json"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let outcome = |of: &std::process::Output| String::from_utf8_lossy(&of.stdout).into_owned();
+    let check = |changed: &str| {
+        let other = folder.join("other.json");
+        std::fs::write(&other, changed).expect("a record");
+        let asked = Command::new("python3")
+            .args([
+                "-B",
+                "checker/check_study.py",
+                text(&other),
+                "--only",
+                "integrable#weak",
+            ])
+            .current_dir(root())
+            .output();
+        outcome(&asked.expect("Python runs"))
+    };
+    let own = std::fs::read_to_string(&record).expect("a record");
+    let said = check(&own);
+    assert!(
+        said.starts_with("confirmed") && said.contains("conditional"),
+        "{said}"
+    );
+    let said = check(&own.replace("\"condition\": \"k = 1\"", "\"condition\": \"k = 2\""));
+    assert!(said.starts_with("rejected"), "{said}");
+}
+
 #[test]
 fn tampered_records_are_rejected() {
     if !has_python() {

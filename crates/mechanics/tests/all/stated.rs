@@ -36,6 +36,42 @@ fn verdict_with(text: &str, claim: &str, files: &[(&str, &str)]) -> Verdict {
     cx.finding(claim).verdict.clone()
 }
 
+/// Chaplygin's sleigh with its mass centre above the blade: what the model states to be zero is zero in stated equations too, which hold
+/// for every l (Neimark, Fufaev 1972, chapter III).
+#[test]
+fn zeros_that_are_stated_count_in_stated_equations() {
+    let sleigh = r#"
+coordinates = ["x", "y", "phi"]
+[parameters]
+m = 1
+J = 2
+l = 0
+[lagrangian]
+L = "1/2 m (x'^2 + y'^2) + 1/2 J phi'^2 + m l phi' (y' cos(phi) - x' sin(phi))"
+[constraints]
+blade = "x' sin(phi) = y' cos(phi)"
+[equations]
+paper = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2", "J phi'' = -m l phi' (x' cos(phi) + y' sin(phi))"]
+slip = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2 + m phi'", "J phi'' = -m l phi' (x' cos(phi) + y' sin(phi))"]
+"#;
+    let (model, _) = load("model.toml", sleigh, &BTreeMap::new(), &[])
+        .into_result()
+        .unwrap();
+    let system = System::from_model(&model).unwrap();
+    let system = system.for_stated_zeros().unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    let registry = Registry::new(&[CLAIMS]);
+    let cx = Context::new(
+        &system,
+        &prepared.terms,
+        &prepared.selection,
+        &registry,
+        Prover::default(),
+    );
+    proved(&cx.finding("equations.stated#paper").verdict);
+    refuted(&cx.finding("equations.stated#slip").verdict, &[]);
+}
+
 #[track_caller]
 fn proved(verdict: &Verdict) {
     assert!(matches!(verdict, Verdict::Proved(_)), "{verdict:#?}");

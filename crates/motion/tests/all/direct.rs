@@ -51,3 +51,58 @@ fn a_skate_has_accelerations_at_every_heading() {
         }
     }
 }
+
+/// ½ (x'² + y'² + z'²) − x − 2 y − 4 z under two constraints with constant coefficients.
+fn held(g: &Graph, rows: [[i64; 3]; 2]) -> SystemParts {
+    let places = ["x", "y", "z"].map(|name| g.symbol(name, 0));
+    let velocities = ["x", "y", "z"].map(|name| g.symbol(name, 1));
+    let along = |row: [i64; 3], of: [Expr; 3]| {
+        let terms = row.iter().zip(of);
+        let terms: Vec<Expr> = terms.map(|(&c, e)| g.mul(&[g.integer(c), e])).collect();
+        g.add(&terms)
+    };
+    let squares = g.add(&velocities.map(|v| g.powi(v, 2)));
+    let kinetic = g.div(squares, g.integer(2));
+    let [a, b] = rows.map(|row| along(row, velocities));
+    SystemParts {
+        coordinates: ["x", "y", "z"].map(String::from).to_vec(),
+        lagrangian: Some(g.sub(kinetic, along([1, 2, 4], places))),
+        constraints: vec![("a".into(), a), ("b".into(), b)],
+        ..SystemParts::default()
+    }
+}
+
+/// What two constraints leave is the direction d = a × b, so that the accelerations are d (F·d)/(d·d), whichever speeds are taken:
+/// also where one constraint makes two velocities equal and the other contains both.
+#[test]
+fn two_constraints_leave_the_direction_across_both() {
+    let all = (0..27).map(|k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);
+    let all: Vec<[i64; 3]> = all.filter(|row| *row != [0; 3]).collect();
+    for &a in &all {
+        for &b in &all {
+            let d = [0, 1, 2]
+                .map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+            if d == [0; 3] {
+                continue;
+            }
+            let g = Arc::new(Graph::new());
+            let system = System::new(g.clone(), held(&g, [a, b])).unwrap();
+            let terms = MotionTerms::new(&system);
+            let binding = Binding::new(&system).unwrap();
+            let numeric = NumericSystem::new(&system, &terms, &binding).unwrap();
+            let code = backend(numeric.rates_program(&[0, 1]).unwrap()).unwrap();
+            let mut workspace = code.workspace();
+            code.prepare(&[], &mut workspace).unwrap();
+            let [vx, vy, vz] = d.map(|x| x as f64);
+            let mut rates = [0.0; 6];
+            let inputs = [0.0, 0.3, -0.2, 0.7, vx, vy, vz];
+            code.evaluate(&inputs, &mut workspace, &mut rates).unwrap();
+            let work: i64 = -(d[0] + 2 * d[1] + 4 * d[2]);
+            let square: i64 = d.iter().map(|x| x * x).sum();
+            for (found, own) in rates[3..].iter().zip(d) {
+                let expected = (work * own) as f64 / square as f64;
+                assert!((found - expected).abs() < 1e-13, "{a:?} {b:?}: {rates:?}");
+            }
+        }
+    }
+}
