@@ -244,7 +244,7 @@ pub enum Relation {
 }
 
 /// An assumption of the model, `left REL right`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Assumption {
     /// The smaller side.
     pub left: Expr,

@@ -94,7 +94,7 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
             Ok(claims) => claims,
             Err(word) => {
                 error(format!(
-                    "--claims: `{word}` is neither a group (model, formulations, motion, principles, integrals) nor a claim{}",
+                    "--claims: `{word}` is neither a group (model, formulations, motion, principles, integrals, stability) nor a claim{}",
                     did_you_mean(&word, registry().claims())
                 ));
                 return None;

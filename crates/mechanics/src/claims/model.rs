@@ -9,10 +9,11 @@ use crate::mass;
 use crate::order::determined::with_multipliers;
 use crate::redundancy::LeftOut;
 use crate::sample;
-use crate::system::System;
+use crate::system::{Assumption, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Expr, Rational, Verdict};
+use chetaev_symbolic::{Expr, Graph, Rational, Verdict};
+use std::collections::BTreeSet;
 
 /// `model.hessian-regular`.
 #[derive(Clone, Copy, Debug)]
@@ -315,9 +316,10 @@ impl Claim for ConstraintsLinear {
             );
             return Verdict::Proved(proof).into();
         }
+        let system = assuming_of_others(cx);
         cx.prover
             .named_identity(
-                cx.system,
+                &system,
                 &residuals,
                 &Manifold::default(),
                 "identically in q, v, t",
@@ -326,13 +328,41 @@ impl Claim for ConstraintsLinear {
     }
 }
 
+/// The system with its assumptions on the highest derivatives v made of w too.
+fn assuming_of_others(cx: &Context<'_>) -> System {
+    let g = &cx.system.graph;
+    let mut system = cx.system.clone();
+    let orders: BTreeSet<u32> = (cx.system.constraints.iter())
+        .map(|constraint| constraint.order.max(1))
+        .collect();
+    for order in orders {
+        let coordinates = cx.system.coordinates.iter();
+        let pairs: Vec<(Expr, Expr)> = coordinates
+            .map(|c| (g.symbol(&c.name, order), other(g, &c.name, order)))
+            .collect();
+        let own = cx.system.assumptions.iter();
+        let of_others = own.map(|a| Assumption {
+            left: g.substitute(a.left, &pairs),
+            right: g.substitute(a.right, &pairs),
+            ..a.clone()
+        });
+        let is_new = |a: &Assumption| !cx.system.assumptions.contains(a);
+        system.assumptions.extend(of_others.filter(is_new));
+    }
+    system
+}
+
+/// The component of w beside that of v.
+fn other(g: &Graph, name: &str, order: u32) -> Expr {
+    g.symbol(&format!("w_{name}"), order)
+}
+
 /// `f(v) + f(w) - 2 f((v + w)/2)` in the highest derivatives v, which vanishes for affine functions only (Jensen's
 /// equation); unlike second derivatives it sees the corner of |x'|, and unlike f(v + w) and f(0) it asks for f between
 /// the two only.
 fn bend(cx: &Context<'_>, constraint: &Constraint) -> Expr {
     let (g, f) = (&cx.system.graph, constraint.f);
     let order = constraint.order.max(1);
-    let other = |name: &str| g.symbol(&format!("w_{name}"), order);
     let half = g.number(Rational::ONE / Rational::from(2));
     let at = |value: &dyn Fn(Expr, &str) -> Expr| {
         let pairs: Vec<(Expr, Expr)> = cx
@@ -346,8 +376,8 @@ fn bend(cx: &Context<'_>, constraint: &Constraint) -> Expr {
             .collect();
         g.substitute(f, &pairs)
     };
-    let of_other = at(&|_, name| other(name));
-    let between = at(&|v, name| g.mul(&[half, g.add(&[v, other(name)])]));
+    let of_other = at(&|_, name| other(g, name, order));
+    let between = at(&|v, name| g.mul(&[half, g.add(&[v, other(g, name, order)])]));
     g.add(&[f, of_other, g.neg(between), g.neg(between)])
 }
 

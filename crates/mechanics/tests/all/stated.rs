@@ -72,6 +72,21 @@ slip = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2 + m phi'", "J phi'' = -m l
     refuted(&cx.finding("equations.stated#slip").verdict, &[]);
 }
 
+/// |x'| is x' for every velocity that the model assumes, and has a corner where it assumes nothing.
+#[test]
+fn constraints_are_linear_for_the_velocities_that_are_assumed() {
+    let text = |assumed: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\n{assumed}[lagrangian]\nT = \"1/2 (x'^2 + y'^2 + z'^2)\"\n\
+             [constraints]\nc = \"sqrt(x'^2) = y\"\nd = \"z' = y abs(x')\"\n"
+        )
+    };
+    let claim = "model.constraints-linear";
+    proved(&verdict(&text("assumptions = [\"x' > 0\"]\n"), claim));
+    proved(&verdict(&text("assumptions = [\"x' < 0\"]\n"), claim));
+    refuted(&verdict(&text(""), claim), &[]);
+}
+
 #[track_caller]
 fn proved(verdict: &Verdict) {
     assert!(matches!(verdict, Verdict::Proved(_)), "{verdict:#?}");
