@@ -945,6 +945,7 @@ class System:
         outputs: str | Iterable[str] | None = None,
         symbolic: bool = False,
         numbers: bool = False,
+        all: bool = False,
         save: str | os.PathLike[str] | None = None,
         progress: bool = False,
     ) -> Linearization:
@@ -964,6 +965,9 @@ class System:
             Leaves all parameters as symbols.
         numbers : bool
             Puts in the values of all parameters from the beginning: exact numbers alone.
+        all : bool
+            Also in all variables, ``E z' = A z + B u`` with coordinates, velocities and multipliers: ``to_dict()["all"]``; outputs may then be functions of
+            all coordinates.
         save : path, optional
             Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
         progress : bool
@@ -974,7 +978,7 @@ class System:
         Linearization
             The matrices as exact texts, in SymPy, in LaTeX, and the eigenvalues.
         """
-        wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers)
+        wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers, all=all)
         with _Progress(progress) as tell:
             found = self._native.stability(wanted, tell)
         result = Linearization(self, found, found.equations())
@@ -1293,7 +1297,7 @@ def type_or_value(value: Any) -> type[Exception]:
 
 def _wanted(**options: Any) -> dict[str, Any]:
     """What is asked of linear equations, lists joined by commas."""
-    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "numbers": False, "over": None, "at": None, **options}
+    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "numbers": False, "all": False, "over": None, "at": None, **options}
     for name in ("speeds", "outputs"):
         if asked[name] is not None and not isinstance(asked[name], str):
             asked[name] = ",".join(asked[name])

@@ -142,6 +142,7 @@ pub(crate) struct MotionArguments {
   chetaev linearize gallery/double-pendulum/model.toml --about hanging
   chetaev linearize gallery/falling-rolling-disc/model.toml --about rolling --symbolic
   chetaev linearize gallery/whipple-bicycle/model.toml --outputs phi,delta --save bicycle.mat
+  chetaev linearize gallery/chaplygin-sleigh/model.toml --all --outputs x
   chetaev linearize model.toml --about rest --json")]
 pub(crate) struct Linearize {
     #[command(flatten)]
@@ -164,11 +165,14 @@ pub(crate) struct Linearize {
     /// Put in the values of all parameters, that of the family of motions too: exact numbers alone
     #[arg(long, conflicts_with = "symbolic")]
     pub(crate) numbers: bool,
+    /// Also in all variables, E z' = A z + B u with coordinates, velocities and multipliers; outputs may be functions of all coordinates
+    #[arg(long)]
+    pub(crate) all: bool,
     /// Write to a file in the format of its end: .npz (NumPy), .mat (MATLAB), .py (python-control), .tex, .json or .txt
     #[arg(long, value_name = "FILE")]
     pub(crate) save: Option<PathBuf>,
     /// Linearize along the motion from the initial state: A(t), the transition matrix and its exponents
-    #[arg(long, conflicts_with_all = ["about", "at", "speeds", "outputs", "symbolic", "save"])]
+    #[arg(long, conflicts_with_all = ["about", "at", "speeds", "outputs", "symbolic", "all", "save"])]
     pub(crate) along: bool,
     /// Print JSON: matrices as exact text, eigenvalues as pairs
     #[arg(long)]

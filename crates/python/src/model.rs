@@ -62,6 +62,7 @@ struct Linearized {
     outputs: Option<String>,
     symbolic: bool,
     numbers: bool,
+    all: bool,
     over: Option<String>,
     at: Option<String>,
 }
@@ -653,6 +654,7 @@ impl Model {
                         outputs: wanted.outputs.as_deref(),
                         symbolic: wanted.symbolic,
                         numbers: wanted.numbers,
+                        all: wanted.all,
                         over: wanted.over.as_deref(),
                         at: wanted.at.as_deref(),
                         work: None,

@@ -37,7 +37,7 @@ pub enum StateSpaceError {
     #[error("the mass matrix is singular at the motion: {0}")]
     SingularMass(#[from] SolveError),
     /// An output that is no function of the variables.
-    #[error("the output `{name}` depends on `{coordinate}`, which runs on along the motion or is no variable; outputs are functions of {variables}")]
+    #[error("the output `{name}` depends on `{coordinate}`, which is none of the independent variables {variables}; in all variables, by --all, it is one")]
     NoOutput {
         /// The output.
         name: String,

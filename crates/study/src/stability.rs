@@ -18,6 +18,7 @@ pub use error::StabilityError;
 use chetaev_mechanics::system::QuasiVelocity;
 use chetaev_mechanics::{Prepared, Selection, SteadyMotion, System};
 use chetaev_model::Model;
+use chetaev_stability::descriptor::Descriptor;
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
@@ -55,6 +56,8 @@ pub struct Wanted<'a> {
     pub symbolic: bool,
     /// Whether all parameters have their values from the beginning.
     pub numbers: bool,
+    /// Whether the equations are wanted in all variables too: coordinates, velocities and multipliers.
+    pub all: bool,
     /// Work for the linear equations in symbols, counted as seconds, before they are made in numbers; [`WORK`] where it is left out.
     pub work: Option<f64>,
 }
@@ -96,6 +99,8 @@ pub struct Stability {
     pub ranges: Option<Ranges>,
     /// The equations in state space.
     pub space: StateSpace,
+    /// The equations in all variables, where they were asked for.
+    pub all: Option<Descriptor>,
     /// Their parts of second order, where there are such.
     pub parts: Option<Parts>,
     /// Why all parameters have their values.
@@ -212,7 +217,10 @@ fn in_symbols(
         match Expansion::in_speeds(&system, terms, &selection, motion, (&values, speeds)) {
             Ok(about) => {
                 let question = Question::about(&about, free);
-                let space = about.state_space(&question.linear, &outputs)?;
+                let all = wanted.all.then(|| about.descriptor(&outputs)).transpose()?;
+                // Outputs of all variables need not be functions of the independent ones.
+                let of_independent = if wanted.all { &[] } else { outputs.as_slice() };
+                let space = about.state_space(&question.linear, of_independent)?;
                 let ranges = range
                     .as_ref()
                     .and_then(|r| question.ranges(&system.graph, &r.low, &r.high))
@@ -224,6 +232,7 @@ fn in_symbols(
                     range,
                     ranges,
                     space,
+                    all,
                     system,
                     numbers: None,
                 });

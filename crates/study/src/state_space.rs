@@ -59,9 +59,16 @@ impl Matrices {
         bytes
     }
 
-    /// A program in Python that makes a `control.StateSpace` (python-control).
+    /// A program in Python that makes a `control.StateSpace` (python-control); with a matrix E, for which that has no place, the arrays alone and
+    /// the finite eigenvalues.
     pub fn to_python(&self) -> String {
-        let mut text = format!("# {}\nimport control\nimport numpy as np\n\n", self.title);
+        let is_descriptor = self.matrices.iter().any(|(name, ..)| name == "E");
+        let library = if is_descriptor {
+            "import scipy.linalg"
+        } else {
+            "import control"
+        };
+        let mut text = format!("# {}\n{library}\nimport numpy as np\n\n", self.title);
         for (name, rows, columns) in &self.matrices {
             let rows: Vec<String> = rows
                 .iter()
@@ -81,7 +88,11 @@ impl Matrices {
             let list: Vec<String> = list.iter().map(|t| format!("{t:?}")).collect();
             let _ = writeln!(text, "{name} = [{}]", list.join(", "));
         }
-        text.push_str("system = control.StateSpace(A, B, C, D, states=states, inputs=inputs, outputs=outputs)\n");
+        text.push_str(if is_descriptor {
+            "# Infinite eigenvalues belong to the constraints.\neigenvalues = scipy.linalg.eigvals(A, E)\nfinite = eigenvalues[np.isfinite(eigenvalues)]\n"
+        } else {
+            "system = control.StateSpace(A, B, C, D, states=states, inputs=inputs, outputs=outputs)\n"
+        });
         text
     }
 }

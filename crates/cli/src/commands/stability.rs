@@ -24,6 +24,7 @@ pub(crate) fn linearize(arguments: &Linearize) -> u8 {
         outputs: arguments.outputs.as_deref(),
         symbolic: arguments.symbolic,
         numbers: arguments.numbers,
+        all: arguments.all,
         over: None,
         work: None,
     };

@@ -4,6 +4,8 @@ mod integrals;
 mod statements;
 mod steady;
 
+pub(crate) use steady::rounded;
+
 use crate::plain;
 use crate::study::{Decided, Study};
 use chetaev_mechanics::constraint::{Constraint, ConstraintKind};

@@ -2,6 +2,7 @@
 //! stability over two, and the modes.
 
 use super::modes;
+use crate::overview::found::rounded;
 use crate::stability::map::{Asked, Course, StabilityMap};
 use crate::stability::{stability, Stability, Wanted};
 use crate::study::Study;
@@ -11,7 +12,7 @@ use chetaev_report::data::{
 use chetaev_stability::hurwitz::Region;
 use chetaev_stability::isolation::Root;
 use chetaev_stability::question::parameter_of_motion;
-use chetaev_symbolic::Rational;
+use chetaev_symbolic::{Rational, Verdict};
 
 /// The table with its figures, maps and modes.
 pub(super) fn section(study: &Study) -> Option<Table> {
@@ -175,7 +176,12 @@ fn row(study: &Study, name: &str, own: &Stability) -> TableRow {
     let stated = |id: &str, word: &str| {
         let full = format!("{id}#{name}");
         let decided = study.verdicts.iter().find(|d| d.full_id() == full)?;
-        Some(format!("{word}: {}", decided.finding.verdict.word()))
+        Some(match &decided.finding.verdict {
+            Verdict::Conditional { condition, .. } => {
+                format!("{word} where {}", rounded(condition))
+            }
+            other => format!("{word}: {}", other.word()),
+        })
     };
     let all = [
         stated("stability.asymptotic", "asymptotically stable"),

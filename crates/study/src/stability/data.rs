@@ -2,15 +2,17 @@
 
 use super::{named_parts, Numbers, Stability};
 use crate::state_space::{latex, Matrices};
+use chetaev_stability::descriptor::Descriptor;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::question::Place;
 use chetaev_symbolic::{Expr, Rational};
 use serde_json::{json, Value};
 
 impl Stability {
-    /// All matrices in numbers, for other programs.
+    /// All matrices in numbers, for other programs: those in all variables, with E, where they were asked for.
     pub fn matrices(&self) -> Matrices {
-        let (space, at) = (&self.space, self.stated());
+        let at = self.stated();
+        let space = self.all.as_ref().map_or(&self.space, |own| &own.space);
         let (n, m) = (space.states.len(), space.inputs.len());
         let mut matrices: Vec<(String, Vec<Vec<f64>>, usize)> = [
             ("A", &space.a, n),
@@ -21,6 +23,10 @@ impl Stability {
         .into_iter()
         .map(|(name, rows, columns)| (name.to_owned(), self.numbers(rows, at), columns))
         .collect();
+        if let Some(all) = &self.all {
+            let left = self.numbers(&all.left, at);
+            matrices.insert(0, ("E".into(), left, n));
+        }
         for (name, rows) in self.parts.iter().flat_map(named_parts) {
             matrices.push((format!("{name}_second"), self.numbers(rows, at), rows.len()));
         }
@@ -32,8 +38,14 @@ impl Stability {
                 ("outputs".into(), space.outputs.clone()),
             ],
             title: format!(
-                "{}, linear equations about the steady motion {}",
-                self.system.name, self.motion.name
+                "{}, linear equations about the steady motion {}{}",
+                self.system.name,
+                self.motion.name,
+                if self.all.is_some() {
+                    ", in all variables: E z' = A z + B u"
+                } else {
+                    ""
+                }
             ),
         }
     }
@@ -41,6 +53,16 @@ impl Stability {
     /// The exact matrices as LaTeX.
     pub fn latex(&self) -> String {
         let (linear, space) = (&self.question.linear, &self.space);
+        if let Some(Descriptor { left, space, .. }) = &self.all {
+            let all: [(&str, &[Vec<Expr>]); 5] = [
+                ("E", left),
+                ("A", &space.a),
+                ("B", &space.b),
+                ("C", &space.c),
+                ("D", &space.d),
+            ];
+            return latex(self.graph(), &all);
+        }
         let mut all: Vec<(&str, &[Vec<Expr>])> = vec![
             ("E", &linear.left),
             ("F", &linear.right),
@@ -99,6 +121,18 @@ impl Stability {
             "characteristic_polynomial": polynomial,
             "eigenvalues": self.eigenvalues(self.stated()).map(pairs),
         });
+        if let Some(all) = &self.all {
+            value["all"] = json!({
+                "variables": all.space.states,
+                "inputs": all.space.inputs,
+                "outputs": all.space.outputs,
+                "E": exact(&all.left),
+                "A": exact(&all.space.a),
+                "B": exact(&all.space.b),
+                "C": exact(&all.space.c),
+                "D": exact(&all.space.d),
+            });
+        }
         if let Some(why) = self.numbers {
             value["numbers"] = json!(match why {
                 Numbers::Asked => "asked",

@@ -3,6 +3,7 @@
 use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::SystemError;
 use chetaev_model::Diagnostics;
+use chetaev_stability::descriptor::DescriptorError;
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::state_space::StateSpaceError;
 use chetaev_stability::steady_set::SteadySetError;
@@ -90,4 +91,7 @@ pub enum StabilityError {
     /// The mass matrix is singular, or an output is no function of the variables.
     #[error(transparent)]
     StateSpace(#[from] StateSpaceError),
+    /// There are no linear equations in all variables.
+    #[error(transparent)]
+    Descriptor(#[from] DescriptorError),
 }

@@ -2,6 +2,7 @@
 
 use super::{named_parts, Mode, Numbers, Stability};
 use chetaev_mechanics::system::Parameter;
+use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::multiplicity::defects;
 use chetaev_stability::question::Place;
@@ -45,6 +46,7 @@ impl Stability {
             );
         }
         text.push_str(&self.space_text());
+        text.push_str(&self.all_text());
         text.push_str(&self.parts_text());
         text.push_str(&self.polynomial_text());
         text.push_str(&self.modes_text());
@@ -85,6 +87,35 @@ impl Stability {
         {
             for (input, e) in space.inputs.iter().zip(row) {
                 let _ = writeln!(text, "  {output}/{input} = {}", shown(g, e));
+            }
+        }
+        text
+    }
+
+    /// The equations in all variables.
+    fn all_text(&self) -> String {
+        let Some(all) = &self.all else {
+            return String::new();
+        };
+        let (g, space) = (self.graph(), &all.space);
+        let mut text = format!(
+            "\nIn all variables E z' = A z + B u, y = C z + D u with z = ({}), u = ({}), y = ({}); the finite eigenvalues are those below{}:\n\n",
+            space.states.join(", "),
+            space.inputs.join(", "),
+            space.outputs.join(", "),
+            match all.zeros {
+                Some(0) => String::new(),
+                Some(1) => " and a zero of the ignorable coordinates".into(),
+                Some(count) => format!(" and {count} zeros of the ignorable coordinates"),
+                None => " and those of the ignorable coordinates".into(),
+            }
+        );
+        text.push_str(&matrix(g, "E", &all.left));
+        text.push_str(&matrix(g, "A", &space.a));
+        for (name, rows) in [("B", &space.b), ("C", &space.c), ("D", &space.d)] {
+            let is_written = name != "C" || space.outputs != space.states;
+            if is_written && rows.iter().any(|row| !row.is_empty()) {
+                text.push_str(&matrix(g, name, rows));
             }
         }
         text
@@ -181,7 +212,7 @@ impl Stability {
     fn polynomial_text(&self) -> String {
         let g = self.graph();
         let Some(polynomial) = &self.question.polynomial else {
-            return "\nThe system is too large for an exact characteristic polynomial.\n".into();
+            return self.without_polynomial();
         };
         let mut text = String::from("\nCharacteristic polynomial");
         match polynomial.zeros {
@@ -213,6 +244,18 @@ impl Stability {
             let _ = writeln!(text, "  its factors: {}", list.join(" "));
         }
         text
+    }
+
+    /// Why there is no exact polynomial.
+    fn without_polynomial(&self) -> String {
+        let n = self.question.linear.variables.len();
+        let known = format!("\nNo exact characteristic polynomial: with symbols or roots it is made of at most {LARGEST} variables, of rational numbers of at most {LARGEST_IN_NUMBERS}, and here are {n}.");
+        let hint = if n <= LARGEST_IN_NUMBERS && self.numbers.is_none() {
+            " `--numbers` puts in the values of all parameters."
+        } else {
+            ""
+        };
+        format!("{known}{hint}\n")
     }
 
     fn eigenvalues_text(&self) -> String {

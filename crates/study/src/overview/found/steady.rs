@@ -63,7 +63,7 @@ fn stability(decided: &Decided, words: &str) -> Option<String> {
 }
 
 /// Numbers of many digits with six of them: the claim encloses them.
-fn rounded(text: &str) -> String {
+pub(crate) fn rounded(text: &str) -> String {
     let is_number = |word: &str| word.len() > 9 && word.parse::<f64>().is_ok();
     let words = text.split(' ').map(|word| {
         if is_number(word) {
