@@ -213,6 +213,14 @@ def kinds():
     return table
 
 
+def examined(cx, verdict, check):
+    """The outcome of a check; one that only reads what is proved tells whether the claim is true nevertheless."""
+    if verdict["verdict"] in getattr(check, "says", {"proved"}):
+        return check(cx, verdict)
+    outcome, why = check(cx, {**verdict, "verdict": "proved"})
+    return (REJECTED, f"it is true: {why}") if outcome == CONFIRMED else (OPEN, "it is not proved, and no refutation of this kind is read")
+
+
 def examine(cx, verdict, table):
     """The outcome of one claim and its reason."""
     if verdict["verdict"] not in ("proved", "refuted", "conditional"):
@@ -223,12 +231,11 @@ def examine(cx, verdict, table):
     if check is None:
         return OPEN, "no check of this kind is written"
     try:
-        if verdict["verdict"] in getattr(check, "says", {"proved"}):
-            return check(cx, verdict)
-        outcome, why = check(cx, {**verdict, "verdict": "proved"})
-        if outcome != CONFIRMED:
-            return OPEN, "it is not proved, and no refutation of this kind is read"
-        return where_stated(cx, verdict, why) if why.endswith(STATED) else (REJECTED, f"it is true: {why}")
+        outcome, why = examined(cx, verdict, check)
+        of_both = "for general values of the parameters:" in verdict["detail"]
+        if outcome == REJECTED and verdict["verdict"] == "conditional" and why.endswith(STATED):
+            return where_stated(cx, verdict, why)
+        return (OPEN, f"it says one thing of the parameters stated and another of general ones: {why}") if outcome == REJECTED and of_both else (outcome, why)
     except NotCheckable as why:
         return OPEN, str(why)
     except BadPoint as why:

@@ -122,7 +122,7 @@ def test_residuals_vanish_along_a_motion_with_its_multipliers(name: str) -> None
 
 
 def test_the_form_is_regular_where_the_motion_starts() -> None:
-    """The shortest equations of the trailer divide by what vanishes at its start; another form is taken, and gives the rates of the compiled ones."""
+    """All trailers stand in a line at the start, where their rates do not give the speed of the car; the rates are those of the compiled ones."""
     pytest.importorskip("jax").config.update("jax_enable_x64", True)
     system = System.from_gallery("trailer")
     found = system.to_jax()
