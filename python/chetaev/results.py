@@ -119,7 +119,7 @@ class Equation:
     label : str
         What it is the equation of; may be empty.
     left, right : str
-        In the notation of the model, with the names and linear systems of long ones below ``where``.
+        In the notation of the model, with the names and linear systems of long ones below ``where``; ``System.sympify`` reads them.
     latex : str
         In LaTeX.
     """
@@ -616,14 +616,15 @@ class DenseOutput:
     """A motion at any time of its span, by polynomials of degree five between the rows.
 
     They have the coordinates, velocities and accelerations of both rows (Hermite's interpolation), so that what they leave out is of the
-    sixth order in the distance of the rows in the coordinates, and of the fifth in the velocities. ``simulate`` computes rows for times of choice
-    where that is too much: ``simulation={"output": 5000}`` in the model.
+    sixth order in the distance of the rows in the coordinates, and of the fifth in the velocities. Masses with a law of their own have their rates
+    at both rows, which leaves out the fourth order. ``simulate`` computes rows for times of choice where that is too much:
+    ``simulation={"output": 5000}`` in the model.
 
     Attributes
     ----------
     names : list of str
-        The coordinates, then their velocities.
-    coordinates : list of str
+        The coordinates, then masses with a law of their own, then the velocities: the ``state`` of the compiled functions.
+    coordinates, masses : list of str
         These alone.
     t_min, t_max : float
         The span.
@@ -634,7 +635,9 @@ class DenseOutput:
 
         known = set(trajectory.names)
         self.coordinates = [name for name in trajectory.names if f"{name}'" in known and f"{name}''" in known and "'" not in name]
-        self.names = self.coordinates + [f"{name}'" for name in self.coordinates]
+        system = trajectory._system
+        self.masses = [] if system is None else [name for name in system.masses if name in known]
+        self.names = self.coordinates + self.masses + [f"{name}'" for name in self.coordinates]
         order = np.argsort(trajectory.t, kind="stable")
         t = trajectory.t[order]
         kept = np.concatenate([[True], np.diff(t) > 0])
@@ -646,6 +649,7 @@ class DenseOutput:
         self.t_min, self.t_max = float(self._t[0]), float(self._t[-1])
         if len(self._t) < 2:
             self._coefficients = np.stack([q, v, a / 2])
+            self._masses = np.stack(_masses_and_rates(trajectory, self.masses, order[kept]))
             return
         h = np.diff(self._t)
         # What the Taylor polynomial of the left row leaves at the right one, in the three derivatives.
@@ -658,6 +662,11 @@ class DenseOutput:
         quintic = 6 * rest - 3 * slope + bend / 2
         scaled = np.stack([*left, cubic, quartic, quintic])
         self._coefficients = scaled / h ** np.arange(6)[:, None, None]
+        m, rates = _masses_and_rates(trajectory, self.masses, order[kept])
+        start, rise, slope = m[:, :-1], np.diff(m), rates * np.concatenate([h, h[-1:]])
+        after = rates[:, 1:] * h
+        cubics = np.stack([start, slope[:, :-1], 3 * rise - 2 * slope[:, :-1] - after, slope[:, :-1] + after - 2 * rise])
+        self._masses = cubics / h ** np.arange(4)[:, None, None]
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """The state at a time, in the order of ``names``, shape (names,), or at many, shape (names, times).
@@ -693,8 +702,23 @@ class DenseOutput:
         for own in c[::-1]:
             rate = rate * x + place
             place = place * x + own
-        found = np.concatenate([place, rate])
+        mass = np.zeros((len(self.masses), len(flat)))
+        for own in self._masses[:, :, piece][::-1]:
+            mass = mass * x + own
+        found = np.concatenate([place, mass, rate])
         return found[:, 0] if times.ndim == 0 else found
+
+
+def _masses_and_rates(trajectory: Trajectory, masses: list[str], rows: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Masses with a law of their own at rows of a motion, and their rates, each of shape (masses, rows)."""
+    import numpy as np
+
+    if not masses or trajectory._system is None:
+        return np.zeros((0, len(rows))), np.zeros((0, len(rows)))
+    f = trajectory._system.compile()
+    y = np.stack([trajectory[name][rows] for name in f.state], axis=-1)
+    rates = f.rhs(trajectory.t[rows], np.ascontiguousarray(y))
+    return np.stack([trajectory[name][rows] for name in masses]), np.stack([rates[:, f.state.index(name)] for name in masses])
 
 
 class _Remembered:

@@ -375,6 +375,23 @@ class System:
         return [f"{name}'" for name in self.coordinates]
 
     @property
+    def masses(self) -> list[str]:
+        """Names of the masses with a law of their own."""
+        return self._native.masses
+
+    @property
+    def state(self) -> list[str]:
+        """Names of the components of the state: coordinates, masses with a law of their own, velocities. That of a constraint of a higher
+        order has accelerations too, and ``compile().state`` names them."""
+        return self.coordinates + self.masses + self.velocities
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units as the model states them, by the names of coordinates, parameters and masses; what has none is left out. Computed numbers are in
+        SI units."""
+        return dict(self._native.units)
+
+    @property
     def initial(self) -> dict[str, str]:
         """Initial values as they are stated, by the names of coordinates and velocities; guesses are among them."""
         return {name: text for name, text, _ in self._native.initial}
@@ -407,7 +424,8 @@ class System:
         Parameters
         ----------
         expressions : str or list of str
-            Texts in the notation of the model.
+            Texts in the notation of the model. What equations are printed as may be given as it stands, with the names and the linear systems
+            below ``where``: solutions of these are written by Cramer's rule.
 
         Returns
         -------
@@ -423,7 +441,7 @@ class System:
         """Texts in SymPy, with the names of the model."""
         from .trees import Module, replaced, solved
 
-        module = Module(self._native.sympy([" ".join(own.split()) for own in texts]), ["found"])
+        module = Module(self._native.sympy(list(texts)), ["found"])
         found = list(module.sections["found"]["all"])
         rows = module.sections["found"].get("all: linear systems", [])
         return replaced(found, solved(rows, module.is_unknown)) if rows else found

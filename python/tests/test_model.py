@@ -165,3 +165,15 @@ def test_equal_systems_are_equal() -> None:
     assert skate() == skate() and hash(skate()) == hash(skate())
     assert skate() != skate().with_values(m=2) and skate().with_values(m=2) == skate().with_values(m=2)
     assert skate().velocities == ["x'", "y'", "phi'"] and skate().initial == {"x'": "1", "phi'": "0.5"}
+
+
+def test_a_system_says_its_state_and_units() -> None:
+    cart = System.from_gallery("sand-cart")
+    assert cart.state == cart.compile().state
+    assert cart.masses == ["load"]
+    stated = System(
+        "s", coordinates={"x": {"unit": "m"}}, parameters={"m": {"value": 2, "unit": "kg"}, "k": {"value": 3, "unit": "kg/s^2"}},
+        kinetic="1/2 m x'^2", potential="1/2 k x^2",
+    )
+    assert stated.units == {"x": "m", "m": "kg", "k": "kg/s^2"}
+    assert skate().units == {} and skate().state == ["x", "y", "phi", "x'", "y'", "phi'"]

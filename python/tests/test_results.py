@@ -271,6 +271,19 @@ def test_ctrl_c_ends_long_work(work: str) -> None:
     assert done.stdout and float(done.stdout) < 2, done
 
 
+def test_masses_are_known_between_the_rows() -> None:
+    """A tank that loses a tenth each second: m = 2 exp(-t/10), and x' is free of forces that the sand would bring."""
+    tank = System(
+        "tank", coordinates=["x"], masses={"m": {"rate": "-m/10", "initial": 2}}, kinetic="1/2 m x'^2", initial={"x'": 1},
+        simulation={"output": 40},
+    )
+    motion = tank.simulate(t_end=3)
+    assert motion.sol.names == ["x", "m", "x'"] == tank.state and motion.sol.masses == ["m"]
+    times = np.linspace(0, 3, 17)
+    np.testing.assert_allclose(motion.sol(times)[1], 2 * np.exp(-times / 10), rtol=1e-9)
+    assert motion.sol(1.5).shape == (3,)
+
+
 def test_results_are_tables_and_sentences_in_notebooks() -> None:
     """Whatever a result shows, it is no raw data: no braces of JSON, no text in a fixed width but what unfolds."""
     sleigh, governor = System.from_gallery("chaplygin-sleigh"), System.from_gallery("watt-governor")

@@ -5,6 +5,7 @@ use chetaev_symbolic::Expr;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
+use crate::printed::{self, Defined};
 use crate::source::{Place, Sources};
 use crate::text::Text;
 
@@ -106,7 +107,8 @@ impl Scope for WholeModel<'_> {
 
 impl Model {
     /// Reads an expression in which every name of the model may occur, with derivatives of any order; the multiplier
-    /// `lambda_NAME` of a constraint is the symbol of that name.
+    /// `lambda_NAME` of a constraint is the symbol of that name. What is long may be written as it is printed, with names for its
+    /// parts and their definitions, or the linear systems that determine them, below a line `where`.
     ///
     /// # Errors
     /// Everything that is wrong with the text, each at its place; the text is shown under the name `expression`.
@@ -115,6 +117,22 @@ impl Model {
     }
 
     fn labelled_expression(&self, label: &str, text: &str) -> Result<Expr, Diagnostics> {
+        let whole = WholeModel(self);
+        match printed::split(text) {
+            None => self.one_expression(label, text, &whole),
+            Some((text, definitions)) => {
+                let defined = Defined::new(&self.graph, &whole, &definitions)?;
+                self.one_expression(label, &text, &defined)
+            }
+        }
+    }
+
+    fn one_expression(
+        &self,
+        label: &str,
+        text: &str,
+        scope: &dyn Scope,
+    ) -> Result<Expr, Diagnostics> {
         let mut sources = Sources::default();
         let source = sources.add(label, text);
         let located = Text::verbatim(text, source, 0);
@@ -124,7 +142,7 @@ impl Model {
             &self.graph,
             &parsed.tree,
             parsed.root(),
-            &WholeModel(self),
+            scope,
             &[],
             &mut found,
         );

@@ -15,6 +15,7 @@ mod format;
 mod load;
 pub mod mechanism;
 pub mod model;
+mod printed;
 pub mod raw;
 mod render;
 mod resolve;

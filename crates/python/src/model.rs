@@ -281,6 +281,28 @@ impl Model {
         all.map(|c| c.name.as_str()).collect()
     }
 
+    /// Names of the masses that are states: those whose law states their rate.
+    #[getter]
+    fn masses(&self) -> Vec<&str> {
+        let all = self.model.masses.iter().map(|own| own.name.as_str());
+        all.filter(|name| self.model.mass_rate(name).is_some())
+            .collect()
+    }
+
+    /// Units as they are stated, by the names of coordinates, parameters and masses.
+    #[getter]
+    fn units(&self) -> Vec<(&str, &str)> {
+        let own = &self.model;
+        let coordinates = own.coordinates.iter().map(|own| (&own.name, &own.unit));
+        let parameters = own.parameters.iter().map(|own| (&own.name, &own.unit));
+        let masses = own.masses.iter().map(|own| (&own.name, &own.unit));
+        coordinates
+            .chain(parameters)
+            .chain(masses)
+            .filter_map(|(name, unit)| Some((name.as_str(), unit.as_ref()?.text.as_str())))
+            .collect()
+    }
+
     /// Names of the parameters with the texts of their values, or `None`.
     #[getter]
     fn parameters(&self) -> Vec<(&str, Option<String>)> {

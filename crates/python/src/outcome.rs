@@ -1,6 +1,6 @@
 //! A study with its motion.
 
-use crate::waiting;
+use crate::{problem, waiting};
 use chetaev::study::picture::{self, Scene, View};
 use chetaev::study::table::Table;
 use chetaev::study::{interruptible, page, record, story, summary, Hooks, Study};
@@ -190,17 +190,19 @@ fn interruptibly<T: Send>(
 impl Outcome {
     fn drawn(&self) -> PyResult<Scene> {
         picture::scene(&self.study).ok_or_else(|| {
-            PyValueError::new_err(if self.study.notices.is_empty() {
+            let said = if self.study.notices.is_empty() {
                 "no motion was computed, so that there is nothing to draw".to_owned()
             } else {
                 self.study.notices.join("\n")
-            })
+            };
+            Python::attach(|py| problem::of_option(py, &said))
         })
     }
 
     fn table(&self) -> PyResult<&Table> {
+        let said = || self.study.notices.join("\n");
         self.table
             .as_ref()
-            .ok_or_else(|| PyValueError::new_err(self.study.notices.join("\n")))
+            .ok_or_else(|| Python::attach(|py| problem::of_option(py, &said())))
     }
 }

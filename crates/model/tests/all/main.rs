@@ -10,6 +10,7 @@ mod frames;
 mod loads;
 mod masses;
 mod particles;
+mod printed;
 mod reading;
 mod rejections;
 mod robustness;
