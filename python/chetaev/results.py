@@ -119,7 +119,8 @@ class Equation:
     label : str
         What it is the equation of; may be empty.
     left, right : str
-        In the notation of the model, with the names and linear systems of long ones below ``where``; ``System.sympify`` reads them.
+        In the notation of the model, with the names and linear systems of long ones below ``where``; ``System.sympify`` reads them with the
+        ``state`` of the formulation as ``variables``.
     latex : str
         In LaTeX.
     """

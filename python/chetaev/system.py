@@ -415,7 +415,7 @@ class System:
         said = f"{html.escape(repr(self)[8:-1])}"
         return f"<details><summary>{said}</summary><pre>{html.escape(self.text)}</pre></details>"
 
-    def sympify(self, expressions: Sequence[str] | str) -> Any:
+    def sympify(self, expressions: Sequence[str] | str, *, variables: Sequence[str] = ()) -> Any:
         """Expressions of the model notation in SymPy, exactly.
 
         Coordinates, controls and masses with a law of their own are functions of the time, ``sympy.Function("x", real=True)(t)``; of a system that
@@ -426,23 +426,30 @@ class System:
         expressions : str or list of str
             Texts in the notation of the model. What equations are printed as may be given as it stands, with the names and the linear systems
             below ``where``: solutions of these are written by Cramer's rule.
+        variables : list of str, optional
+            Names that are not the model's but those of a form of its equations: quasi-velocities that Chetaev chose, momenta. ``state`` of a
+            formulation lists them: ``system.sympify(form.equations[0].right, variables=form.state)``. They are functions of the time. Without
+            them the names of the model are known, its definitions and the multipliers ``lambda_NAME`` of its constraints.
 
         Returns
         -------
         sympy.Expr, or list of these
         """
         texts = [expressions] if isinstance(expressions, str) else list(expressions)
-        found = self._in_sympy(texts)
+        found = self._in_sympy(texts, variables)
         if self._own is not None:
             found = [self._own.back(own) for own in found]
         return found[0] if isinstance(expressions, str) else found
 
-    def _in_sympy(self, texts: Sequence[str]) -> list[Any]:
+    def _in_sympy(self, texts: Sequence[str], variables: Sequence[str] = ()) -> list[Any]:
         """Texts in SymPy, with the names of the model."""
+        import sympy as sp
+
         from .trees import Module, replaced, solved
 
-        module = Module(self._native.sympy(list(texts)), ["found"])
-        found = list(module.sections["found"]["all"])
+        module = Module(self._native.sympy(list(texts), list(variables)), ["found"])
+        # A number alone is one of Python in the module.
+        found = [sp.sympify(own) for own in module.sections["found"]["all"]]
         rows = module.sections["found"].get("all: linear systems", [])
         return replaced(found, solved(rows, module.is_unknown)) if rows else found
 

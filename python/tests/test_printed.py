@@ -53,12 +53,13 @@ def number(expression: Any, point: dict[str, Any]) -> Any:
 class Point(dict[str, Any]):
     """Random values of what is free, the same when asked again; what the model defines, as a quasi-velocity, has its value."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, variables: list[str]) -> None:
         super().__init__()
         self.system = system
+        self.variables = variables
 
     def __missing__(self, name: str) -> Any:
-        found = self.system.sympify(name)
+        found = self.system.sympify(name, variables=self.variables)
         called = found.expr.func.__name__ + found.derivative_count * "'" if isinstance(found, sp.Derivative) else getattr(found, "name", None)
         is_free = name in (called, found.func.__name__)
         self[name] = mpmath.mpf(random.Random(name).uniform(0.3, 1.3)) if is_free else number(found, self)
@@ -82,14 +83,14 @@ def test_printed_equations_are_read_in_sympy(name: str) -> None:
         sections = module.sections[form.name.replace("-", "_")]
         for title, equations in form.groups.items():
             texts = [text for own in equations for text in (own.left, own.right)]
-            ours = system.sympify(texts)
+            ours = system.sympify(texts, variables=form.state)
             # By another way: numbers for the unknowns, found by solving the systems as they are stated.
             rows = sections.get(f"{title}: linear systems", [])
             theirs = [side for own in sections[title] for side in (own.lhs, own.rhs)]
             if rows:
                 theirs = replaced(theirs, solved(rows, module.is_unknown))
             with mpmath.workdps(50):
-                point = Point(system)
+                point = Point(system, form.state)
                 for a, b in zip(ours, theirs, strict=True):
                     assert agree(number(a, point), number(b, point)), title
                     compared += 1
@@ -119,6 +120,13 @@ def test_texts_with_definitions_are_exact(text: str, wanted: Any) -> None:
     a = next(own for own in found.free_symbols if own.name == "a")
     assert sp.simplify(found - wanted(a, x)) == 0
     assert math.isfinite(float(found.subs({a: 2, x: sp.Rational(1, 3)})))
+
+
+def test_numbers_alone_are_those_of_sympy() -> None:
+    system = System("s", coordinates=["x"], kinetic="1/2 x'^2")
+    found = system.sympify(["0", "2/6", "x - x"])
+    assert found == [0, sp.Rational(1, 3), 0]
+    assert all(isinstance(own, sp.Expr) for own in found)
 
 
 def test_advice_on_functions_that_are_not_there_is_right() -> None:

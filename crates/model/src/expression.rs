@@ -12,12 +12,16 @@ use crate::text::Text;
 /// Highest derivative of a definition that is taken.
 const MOST_DERIVATIVES: u32 = 8;
 
-/// All names of a model: every quantity with its derivatives, definitions, and the multipliers of the constraints.
-struct WholeModel<'m>(&'m Model);
+/// All names of a model: every quantity with its derivatives, definitions, and the multipliers of the constraints; and variables of a state that
+/// is not the model's.
+struct WholeModel<'m> {
+    model: &'m Model,
+    variables: &'m [String],
+}
 
 impl Scope for WholeModel<'_> {
     fn resolve(&self, name: &str, order: u32) -> Resolution {
-        let model = self.0;
+        let model = self.model;
         let refused = |message: String| Resolution::Refused {
             code: "derivative-of-constant",
             message,
@@ -74,12 +78,15 @@ impl Scope for WholeModel<'_> {
             Some(define) => Resolution::Known(
                 (0..order).fold(define.value, |value, _| model.total_derivative(value)),
             ),
+            None if self.variables.iter().any(|own| own == name) => {
+                Resolution::Known(model.graph.symbol(name, order))
+            }
             None => Resolution::Unknown,
         }
     }
 
     fn names(&self) -> Vec<String> {
-        let model = self.0;
+        let model = self.model;
         let coordinates = model.coordinates.iter().map(|own| &own.name);
         let parameters = model.parameters.iter().map(|own| &own.name);
         let defines = model
@@ -99,6 +106,7 @@ impl Scope for WholeModel<'_> {
             .chain(controls)
             .chain(masses)
             .chain(sizes)
+            .chain(self.variables)
             .cloned()
             .chain(multipliers)
             .collect()
@@ -113,11 +121,28 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the text, each at its place; the text is shown under the name `expression`.
     pub fn expression(&self, text: &str) -> Result<Expr, Diagnostics> {
-        self.labelled_expression("expression", text)
+        self.expression_in(text, &[])
     }
 
-    fn labelled_expression(&self, label: &str, text: &str) -> Result<Expr, Diagnostics> {
-        let whole = WholeModel(self);
+    /// The same, in which the variables of a state may occur that is not the model's, with derivatives of any order: quasi-velocities that were
+    /// chosen, momenta. What the model calls by such a name is what it says.
+    ///
+    /// # Errors
+    /// As [`expression`](Model::expression).
+    pub fn expression_in(&self, text: &str, variables: &[String]) -> Result<Expr, Diagnostics> {
+        self.labelled_expression("expression", text, variables)
+    }
+
+    fn labelled_expression(
+        &self,
+        label: &str,
+        text: &str,
+        variables: &[String],
+    ) -> Result<Expr, Diagnostics> {
+        let whole = WholeModel {
+            model: self,
+            variables,
+        };
         match printed::split(text) {
             None => self.one_expression(label, text, &whole),
             Some((text, definitions)) => {
@@ -171,7 +196,7 @@ impl Model {
     /// # Errors
     /// As [`constant_value`](Model::constant_value).
     pub fn constant(&self, label: &str, text: &str) -> Result<(Expr, f64), Diagnostics> {
-        let value = self.labelled_expression(label, text)?;
+        let value = self.labelled_expression(label, text, &[])?;
         let closed = self.graph.substitute(value, &self.parameter_values());
         let open: Vec<String> = self
             .graph

@@ -328,15 +328,23 @@ impl Model {
         }
     }
 
-    /// A Python module whose list `found["all"]` has these expressions in SymPy.
-    fn sympy(&self, py: Python<'_>, texts: Vec<String>) -> PyResult<String> {
-        let read = |text: &String| self.model.expression(text);
+    /// A Python module whose list `found["all"]` has these expressions in SymPy; variables of a state that is not the model's may occur.
+    #[pyo3(signature = (texts, variables))]
+    fn sympy(
+        &self,
+        py: Python<'_>,
+        texts: Vec<String>,
+        variables: Vec<String>,
+    ) -> PyResult<String> {
+        let read = |text: &String| self.model.expression_in(text, &variables);
         let read: Result<Vec<_>, _> = texts.iter().map(read).collect();
         let read = read.map_err(|found| problem::of_model(py, &found))?;
         let g = &self.model.graph;
         let moving = |symbol| {
             let name = g.symbol_name(symbol);
-            self.model.varies(name) || self.model.mass_rate(name).is_some()
+            self.model.varies(name)
+                || self.model.mass_rate(name).is_some()
+                || variables.iter().any(|own| own == name)
         };
         let moving: Vec<String> = g
             .symbols_in(&read)

@@ -81,3 +81,19 @@ fn what_determines_nothing_is_refused() {
         assert!(model.expression(wrong).is_err(), "{wrong}");
     }
 }
+
+#[test]
+fn variables_of_a_state_are_known_where_they_are_given() {
+    let model = model(&format!("{PLANE}[define]\nh = \"x + y\"\n"));
+    let g = &model.graph;
+    let own = ["w".to_owned(), "h".to_owned()];
+    let found = model.expression_in("w' + h", &own).unwrap();
+    // What the model defines stays what it says.
+    let sum = g.add(&[g.symbol("w", 1), model.expression("x + y").unwrap()]);
+    assert_eq!(found, sum);
+    let refused = model.expression("w'").unwrap_err();
+    assert!(refused.list[0].message.contains("unknown name `w`"));
+    // Below `where` too.
+    let text = "v + h\nwhere\n  v = w'";
+    assert_eq!(model.expression_in(text, &own).unwrap(), sum);
+}
