@@ -425,7 +425,8 @@ class System:
         ----------
         expressions : str or list of str
             Texts in the notation of the model. What equations are printed as may be given as it stands, with the names and the linear systems
-            below ``where``: solutions of these are written by Cramer's rule.
+            below ``where``: solutions of these are written by Cramer's rule, whose work doubles with every unknown. For systems of more than
+            about ten, ``to_sympy`` of the derivation has the rows as they stand.
         variables : list of str, optional
             Names that are not the model's but those of a form of its equations: quasi-velocities that Chetaev chose, momenta. ``state`` of a
             formulation lists them: ``system.sympify(form.equations[0].right, variables=form.state)``. They are functions of the time. Without
