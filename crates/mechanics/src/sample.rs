@@ -532,3 +532,46 @@ fn least_norm_step(jacobian: &[f64], f: &[f64], n: usize) -> Vec<f64> {
     }
     step
 }
+
+/// Numbers for parameters and for the place where the motion starts.
+pub(crate) struct Start(BTreeMap<Symbol, f64>);
+
+/// Multiples of it fall apart most evenly modulo one.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+impl Start {
+    /// Of a system: coordinates without a stated value are zero, parameters without one are numbers between 1/2 and 3/2.
+    pub(crate) fn of(system: &System) -> Start {
+        let g = &system.graph;
+        let mut known: BTreeMap<Symbol, f64> = BTreeMap::new();
+        for (p, place) in system.parameters.iter().zip(1_u32..) {
+            let stated = p.value.and_then(|e| g.evaluate_f64(&[e], &|_| None).ok());
+            let value = stated.and_then(|values| values.first().copied());
+            let other = 0.5 + (f64::from(place) * GOLDEN).fract();
+            known.extend(g.as_symbol(p.expr).map(|s| (s, value.unwrap_or(other))));
+        }
+        for &(symbol, e) in &system.start {
+            if let Ok(values) = g.evaluate_f64(&[e], &|s| known.get(&s).copied()) {
+                known.extend(values.first().map(|&value| (symbol, value)));
+            }
+        }
+        for c in &system.coordinates {
+            known.entry(c.q_symbol).or_insert(0.0);
+        }
+        Start(known)
+    }
+
+    /// Values there, if all are finite.
+    pub(crate) fn values(&self, g: &Graph, all: &[Expr]) -> Option<Vec<f64>> {
+        // What is not known, such as a control, is not looked at.
+        let point = |s: Symbol| Some(self.0.get(&s).copied().unwrap_or(0.7));
+        let values = g.evaluate_f64(all, &point).ok()?;
+        values.iter().all(|x| x.is_finite()).then_some(values)
+    }
+
+    /// Whether a function of the place has a value there that is not zero.
+    pub(crate) fn is_nonzero(&self, g: &Graph, e: Expr) -> bool {
+        self.values(g, &[e])
+            .is_some_and(|values| values.iter().all(|x| x.abs() > 1e-9))
+    }
+}

@@ -3,8 +3,7 @@
 use crate::characteristics::CharacteristicsError;
 use crate::components;
 use crate::constraint::ConstraintKind;
-use crate::elimination::Start;
-use crate::sample;
+use crate::sample::{self, Start};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words::quoted;
