@@ -232,10 +232,11 @@ def examine(cx, verdict, table):
         return OPEN, "no check of this kind is written"
     try:
         outcome, why = examined(cx, verdict, check)
-        of_both = "for general values of the parameters:" in verdict["detail"]
         if outcome == REJECTED and verdict["verdict"] == "conditional" and why.endswith(STATED):
             return where_stated(cx, verdict, why)
-        return (OPEN, f"it says one thing of the parameters stated and another of general ones: {why}") if outcome == REJECTED and of_both else (outcome, why)
+        if outcome == REJECTED and "for general values of the parameters:" in verdict["detail"]:
+            return OPEN, f"it says one thing of the parameters stated and another of general ones: {why}"
+        return outcome, why
     except NotCheckable as why:
         return OPEN, str(why)
     except BadPoint as why:

@@ -536,19 +536,17 @@ fn least_norm_step(jacobian: &[f64], f: &[f64], n: usize) -> Vec<f64> {
 /// Numbers for parameters and for the place where the motion starts.
 pub(crate) struct Start(BTreeMap<Symbol, f64>);
 
-/// Multiples of it fall apart most evenly modulo one.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
 impl Start {
-    /// Of a system: coordinates without a stated value are zero, parameters without one are numbers between 1/2 and 3/2.
+    /// Of a system: coordinates without a stated value are zero, parameters without one are drawn.
     pub(crate) fn of(system: &System) -> Start {
         let g = &system.graph;
+        let mut generator = Generator::new(0x5354_4152);
         let mut known: BTreeMap<Symbol, f64> = BTreeMap::new();
-        for (p, place) in system.parameters.iter().zip(1_u32..) {
+        for p in &system.parameters {
             let stated = p.value.and_then(|e| g.evaluate_f64(&[e], &|_| None).ok());
             let value = stated.and_then(|values| values.first().copied());
-            let other = 0.5 + (f64::from(place) * GOLDEN).fract();
-            known.extend(g.as_symbol(p.expr).map(|s| (s, value.unwrap_or(other))));
+            let drawn = generator.between(0.5, 1.5);
+            known.extend(g.as_symbol(p.expr).map(|s| (s, value.unwrap_or(drawn))));
         }
         for &(symbol, e) in &system.start {
             if let Ok(values) = g.evaluate_f64(&[e], &|s| known.get(&s).copied()) {

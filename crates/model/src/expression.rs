@@ -5,9 +5,9 @@ use chetaev_symbolic::Expr;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::printed::{self, Defined};
 use crate::source::{Place, Sources};
 use crate::text::Text;
+use crate::where_clause::{self, Defined};
 
 /// Highest derivative of a definition that is taken.
 const MOST_DERIVATIVES: u32 = 8;
@@ -143,7 +143,7 @@ impl Model {
             model: self,
             variables,
         };
-        match printed::split(text) {
+        match where_clause::split(text) {
             None => self.one_expression(label, text, &whole),
             Some((text, definitions)) => {
                 let defined = Defined::new(&self.graph, &whole, &definitions)?;

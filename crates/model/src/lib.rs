@@ -15,7 +15,6 @@ mod format;
 mod load;
 pub mod mechanism;
 pub mod model;
-mod printed;
 pub mod raw;
 mod render;
 mod resolve;
@@ -23,6 +22,7 @@ mod source;
 mod text;
 mod toml;
 pub mod units;
+mod where_clause;
 
 pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};

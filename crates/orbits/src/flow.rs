@@ -5,7 +5,7 @@ use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::Turns;
 use chetaev_motion::Binding;
-use chetaev_stability::reduction::{ClosedSystem, Place, Speeds};
+use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -79,11 +79,11 @@ impl Flow {
         (which, point): (Coordinates, &[(Symbol, f64)]),
     ) -> Result<Flow, OrbitError> {
         let g = &system.graph;
-        let place = Place {
+        let operating = OperatingPoint {
             numbers: point,
             open: &[],
         };
-        let closed = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, place))?;
+        let closed = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, operating))?;
         let c = &closed.characteristics;
         if !c.manifold.implicit.is_empty() {
             return Err(OrbitError::Implicit);

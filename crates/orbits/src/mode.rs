@@ -11,7 +11,7 @@ use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::Turns;
 use chetaev_motion::Binding;
 use chetaev_stability::linearization::{Linearization, Variable};
-use chetaev_stability::reduction::{ClosedSystem, Place, Speeds};
+use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use chetaev_stability::steady::numbers;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -83,11 +83,11 @@ impl LinearMotion {
         };
         let values = system.parameter_values();
         let point = numbers(&motion, system, terms, (&selection.rows, &values))?;
-        let place = Place {
+        let operating = OperatingPoint {
             numbers: &point,
             open: &[],
         };
-        let closed = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, place))?;
+        let closed = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, operating))?;
         let c = &closed.characteristics;
         let own = c.parameters.iter().map(|p| (p.name.clone(), p.definition));
         if !c.manifold.implicit.is_empty() || !own.eq(linear.speeds.iter().cloned()) {

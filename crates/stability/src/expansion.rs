@@ -2,7 +2,7 @@
 
 use crate::guess::near;
 use crate::problem::LinearizationError;
-use crate::reduction::{ClosedSystem, Place, Speeds};
+use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, completed, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
@@ -63,7 +63,7 @@ impl<'a> Expansion<'a> {
                 motion: motion.name.clone(),
             });
         }
-        let place = Place {
+        let operating = OperatingPoint {
             numbers: &numbers,
             open: &state.without_position,
         };
@@ -71,7 +71,7 @@ impl<'a> Expansion<'a> {
             system,
             terms,
             selection,
-            own: ClosedSystem::about(system, terms, selection, (speeds, place))?,
+            own: ClosedSystem::about(system, terms, selection, (speeds, operating))?,
             motion,
             state,
             values: values.to_vec(),

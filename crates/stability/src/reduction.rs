@@ -30,7 +30,7 @@ pub enum Speeds {
 
 /// The state about which a closed system must serve.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<'a> {
+pub struct OperatingPoint<'a> {
     /// Values of symbols in numbers.
     pub numbers: &'a [(Symbol, f64)],
     /// Coordinates without a position. At the first of these that is not ignorable the system ends as it is: there are no linear equations then.
@@ -51,7 +51,7 @@ pub struct ClosedSystem {
 }
 
 impl ClosedSystem {
-    /// The closed system of a system of first order whose masses have no laws of their own, in speeds of choice; `place` is the state about
+    /// The closed system of a system of first order whose masses have no laws of their own, in speeds of choice; `operating` is the state about
     /// which they must serve.
     ///
     /// # Errors
@@ -60,9 +60,9 @@ impl ClosedSystem {
         system: &System,
         terms: &MotionTerms,
         selection: &Selection,
-        (speeds, place): (Speeds, Place<'_>),
+        (speeds, operating): (Speeds, OperatingPoint<'_>),
     ) -> Result<ClosedSystem, LinearizationError> {
-        let point = place.numbers;
+        let point = operating.numbers;
         if terms.order > 1 {
             return Err(LinearizationError::OrderTooHigh { order: terms.order });
         }
@@ -105,7 +105,7 @@ impl ClosedSystem {
             system,
             characteristics,
             &equations,
-            (&standing, place.open),
+            (&standing, operating.open),
         ))
     }
 

@@ -6,7 +6,7 @@
 
 use crate::branch::{Branch, Chain};
 use crate::problem::LinearizationError;
-use crate::reduction::{ClosedSystem, Place, Speeds};
+use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, closed};
 use crate::steady_value::{fraction, Generators, Unknown};
 pub use crate::steady_value::{SteadySetError, Value};
@@ -147,11 +147,11 @@ impl<'a> Equations<'a> {
             Some((g.as_symbol(symbol)?, number))
         });
         let numbers: Vec<(Symbol, f64)> = numbers.collect();
-        let place = Place {
+        let operating = OperatingPoint {
             numbers: &numbers,
             open: &[],
         };
-        let own = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, place))?;
+        let own = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, operating))?;
         let ignorable: Vec<Symbol> = own
             .ignorable(system)
             .into_iter()

@@ -525,10 +525,13 @@ fn studies_are_confirmed_when_they_are_replayed() {
     let failures = studies
         .iter()
         .zip(first)
-        .flat_map(|(study, first)| match first.late {
-            // Once more by itself: another that is late is a claim that takes too long.
-            true => replayed(study, extent).failures,
-            false => first.failures,
+        .flat_map(|(study, first)| {
+            if first.late {
+                // Once more by itself: another that is late is a claim that takes too long.
+                replayed(study, extent).failures
+            } else {
+                first.failures
+            }
         })
         .collect();
     none(failures);

@@ -16,6 +16,11 @@ fn verdict(text: &str, claim: &str) -> Verdict {
 }
 
 fn verdict_with(text: &str, claim: &str, files: &[(&str, &str)]) -> Verdict {
+    decided(&system(text, files), claim)
+}
+
+/// The system of a model with other files beside it.
+fn system(text: &str, files: &[(&str, &str)]) -> System {
     let files: BTreeMap<String, String> = files
         .iter()
         .map(|(path, text)| ((*path).to_owned(), (*text).to_owned()))
@@ -23,11 +28,14 @@ fn verdict_with(text: &str, claim: &str, files: &[(&str, &str)]) -> Verdict {
     let (model, _) = load("model.toml", text, &files, &[])
         .into_result()
         .unwrap_or_else(|problems| panic!("{problems}"));
-    let system = System::from_model(&model).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
+    System::from_model(&model).unwrap()
+}
+
+fn decided(system: &System, claim: &str) -> Verdict {
+    let prepared = Prepared::new(system).unwrap();
     let registry = Registry::new(&[CLAIMS]);
     let cx = Context::new(
-        &system,
+        system,
         &prepared.terms,
         &prepared.selection,
         &registry,
@@ -54,22 +62,9 @@ blade = "x' sin(phi) = y' cos(phi)"
 paper = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2", "J phi'' = -m l phi' (x' cos(phi) + y' sin(phi))"]
 slip = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2 + m phi'", "J phi'' = -m l phi' (x' cos(phi) + y' sin(phi))"]
 "#;
-    let (model, _) = load("model.toml", sleigh, &BTreeMap::new(), &[])
-        .into_result()
-        .unwrap();
-    let system = System::from_model(&model).unwrap();
-    let system = system.for_stated_zeros().unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let registry = Registry::new(&[CLAIMS]);
-    let cx = Context::new(
-        &system,
-        &prepared.terms,
-        &prepared.selection,
-        &registry,
-        Prover::default(),
-    );
-    proved(&cx.finding("equations.stated#paper").verdict);
-    refuted(&cx.finding("equations.stated#slip").verdict, &[]);
+    let at_zero = system(sleigh, &[]).for_stated_zeros().unwrap();
+    proved(&decided(&at_zero, "equations.stated#paper"));
+    refuted(&decided(&at_zero, "equations.stated#slip"), &[]);
 }
 
 /// |x'| is x' for every velocity that the model assumes, and has a corner where it assumes nothing.

@@ -86,10 +86,10 @@ impl<'s> Defined<'s> {
         for line in definitions {
             own.define(line)?;
         }
-        match (own.rows.is_empty(), definitions.last()) {
-            (false, Some(line)) => Err(own.undetermined(line)),
-            _ => Ok(own),
+        if own.rows.is_empty() {
+            return Ok(own);
         }
+        Err(own.undetermined(definitions.last().map_or("", String::as_str)))
     }
 
     fn define(&mut self, line: &str) -> Result<(), Diagnostics> {
