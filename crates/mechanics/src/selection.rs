@@ -29,7 +29,7 @@ impl Selection {
 const LOSES_COMPONENTS: usize = 200_000;
 
 /// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, pivots that vanish where
-/// the motion starts are taken last, then numbers are preferred to parameters, parameters to functions of the state.
+/// the motion is stated to start are taken last, then numbers are preferred to parameters, parameters to functions of the state.
 ///
 /// The choice is heuristic (one sampled state, of a motion where highest derivatives are restricted nonlinearly); that it is regular is a
 /// claim of its own.
@@ -79,8 +79,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     } else {
         AT_SOLVED_STATES
     };
-    let at_start = Start::of(system).values(&system.graph, &terms.jacobian.concat());
-    let values = (values_at(&point), at_start);
+    let values = (values_at(&point), at_start(system, terms));
     let chosen = eliminate_beyond(least, values.clone(), cost.clone(), n);
     let is_finite = |row: usize| {
         system.constraints[terms.constraint_index[row]].kind == ConstraintKind::Holonomic
@@ -105,6 +104,14 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
 
 /// What a pivot costs that vanishes where the motion starts: more than any other, less than a root, which may not be real anywhere.
 const VANISHES_AT_START: usize = 50_000;
+
+/// The gradients where the motion starts, row by row; `None` where the model states no start, or they have no values there.
+fn at_start(system: &System, terms: &MotionTerms) -> Option<Vec<f64>> {
+    if system.start.is_empty() {
+        return None;
+    }
+    Start::of(system).values(&system.graph, &terms.jacobian.concat())
+}
 
 /// More than any entry of a finite constraint costs.
 const BEHIND_FINITE: usize = 100_000_000;
