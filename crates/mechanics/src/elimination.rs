@@ -3,7 +3,8 @@
 
 use crate::characteristics::Parameter;
 use crate::prover::assumptions;
-use crate::sample::{Generator, Start};
+use crate::sample::Generator;
+use crate::selection::eliminate;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::simplify::{simplify_all, Options};
@@ -11,6 +12,53 @@ use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Graph, Node, Symbol};
 use std::collections::BTreeMap;
+
+/// Numbers for parameters and for the place where the motion starts.
+pub(crate) struct Start(BTreeMap<Symbol, f64>);
+
+impl Start {
+    /// Of a system: coordinates without a stated value are zero, parameters without one are drawn.
+    pub(crate) fn of(system: &System) -> Start {
+        let g = &system.graph;
+        let mut generator = Generator::new(0x5354_4152);
+        let mut known: BTreeMap<Symbol, f64> = BTreeMap::new();
+        for p in &system.parameters {
+            let stated = p.value.and_then(|e| g.evaluate_f64(&[e], &|_| None).ok());
+            let value = stated.and_then(|values| values.first().copied());
+            let drawn = generator.between(0.5, 1.5);
+            known.extend(g.as_symbol(p.expr).map(|s| (s, value.unwrap_or(drawn))));
+        }
+        for &(symbol, e) in &system.start {
+            if let Ok(values) = g.evaluate_f64(&[e], &|s| known.get(&s).copied()) {
+                known.extend(values.first().map(|&value| (symbol, value)));
+            }
+        }
+        for c in &system.coordinates {
+            known.entry(c.q_symbol).or_insert(0.0);
+        }
+        Start(known)
+    }
+
+    /// Whether a function of the place has a value there that is not zero.
+    pub(crate) fn is_nonzero(&self, g: &Graph, e: Expr) -> bool {
+        // What is not known, such as a control, is not looked at.
+        let value = g.evaluate_f64(&[e], &|s| Some(self.0.get(&s).copied().unwrap_or(0.7)));
+        value.is_ok_and(|values| values.iter().all(|x| x.is_finite() && x.abs() > 1e-9))
+    }
+}
+
+impl Start {
+    /// Whether the rows of a matrix are independent there.
+    pub(crate) fn is_independent(&self, g: &Graph, rows: &[Vec<Expr>]) -> bool {
+        let point = |s: Symbol| Some(self.0.get(&s).copied().unwrap_or(0.7));
+        let Ok(values) = g.evaluate_f64(&rows.concat(), &point) else {
+            return false;
+        };
+        let n = rows.first().map_or(0, Vec::len);
+        let cost = vec![vec![0; n]; rows.len()];
+        eliminate(values, cost, n).rows.len() == rows.len()
+    }
+}
 
 /// How a speed is taken by a constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]

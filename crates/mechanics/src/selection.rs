@@ -3,7 +3,7 @@
 use crate::characteristics::CharacteristicsError;
 use crate::components;
 use crate::constraint::ConstraintKind;
-use crate::sample::{self, Start};
+use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words::quoted;
@@ -28,8 +28,8 @@ impl Selection {
 /// What it costs to solve for a velocity that does not occur in every factor of a constraint: more than a root.
 const LOSES_COMPONENTS: usize = 200_000;
 
-/// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, pivots that vanish where
-/// the motion is stated to start are taken last, then numbers are preferred to parameters, parameters to functions of the state.
+/// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
+/// pivots that are numbers are preferred to parameters, parameters to functions of the state.
 ///
 /// The choice is heuristic (one sampled state, of a motion where highest derivatives are restricted nonlinearly); that it is regular is a
 /// claim of its own.
@@ -79,7 +79,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     } else {
         AT_SOLVED_STATES
     };
-    let values = (values_at(&point), at_start(system, terms));
+    let values = values_at(&point);
     let chosen = eliminate_beyond(least, values.clone(), cost.clone(), n);
     let is_finite = |row: usize| {
         system.constraints[terms.constraint_index[row]].kind == ConstraintKind::Holonomic
@@ -100,17 +100,6 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     } else {
         chosen
     })
-}
-
-/// What a pivot costs that vanishes where the motion starts: more than any other, less than a root, which may not be real anywhere.
-const VANISHES_AT_START: usize = 50_000;
-
-/// The gradients where the motion starts, row by row; `None` where the model states no start, or they have no values there.
-fn at_start(system: &System, terms: &MotionTerms) -> Option<Vec<f64>> {
-    if system.start.is_empty() {
-        return None;
-    }
-    Start::of(system).values(&system.graph, &terms.jacobian.concat())
 }
 
 /// More than any entry of a finite constraint costs.
@@ -164,91 +153,48 @@ const AT_EXACT_STATES: f64 = 1e-13;
 
 /// Gaussian elimination that takes, among pivots that are not small, the cheapest, at a state that is known to some digits.
 pub(crate) fn eliminate(a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
-    eliminate_beyond(AT_SOLVED_STATES, (a, None), cost, n)
+    eliminate_beyond(AT_SOLVED_STATES, a, cost, n)
 }
 
 /// The same where pivots up to the part `least` of the terms of which they were made count as zero, whatever the units of rows and
-/// columns; of a second matrix, that at the start of the motion, pivots that are zero cost more.
-fn eliminate_beyond(
-    least: f64,
-    (a, at_start): (Vec<f64>, Option<Vec<f64>>),
-    cost: Vec<Vec<usize>>,
-    n: usize,
-) -> Selection {
-    let mut own = Remainder::of(a, n, least);
-    let mut at_start = at_start.map(|a| Remainder::of(a, n, AT_SOLVED_STATES));
+/// columns.
+fn eliminate_beyond(least: f64, mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
+    let r = cost.len();
+    let mut sizes: Vec<f64> = a.iter().map(|x| x.abs()).collect();
+    let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let scale: Vec<f64> = a.chunks(n.max(1)).map(largest).collect();
     let mut selection = Selection {
         rows: Vec::new(),
         dependent: Vec::new(),
     };
-    let mut open: Vec<usize> = (0..cost.len()).collect();
+    let mut open: Vec<usize> = (0..r).collect();
     while !open.is_empty() {
-        let places = open.iter().flat_map(|&i| (0..n).map(move |j| (i, j)));
-        let usable =
-            places.filter(|&(i, j)| !selection.dependent.contains(&j) && own.is_usable(i, j));
-        let best = usable.min_by_key(|&(i, j)| {
-            let vanishes = at_start
-                .as_ref()
-                .is_some_and(|start| !start.is_usable(i, j));
-            cost[i][j] + if vanishes { VANISHES_AT_START } else { 0 }
-        });
-        let Some((i, j)) = best else { break };
+        let mut best: Option<(usize, usize, usize)> = None;
+        for &i in &open {
+            for j in (0..n).filter(|j| !selection.dependent.contains(j)) {
+                let entry = a[i * n + j].abs();
+                let usable = entry > least * sizes[i * n + j] && entry > least * scale[i];
+                let better = best.is_none_or(|(c, _, _)| cost[i][j] < c);
+                if usable && better {
+                    best = Some((cost[i][j], i, j));
+                }
+            }
+        }
+        let Some((_, i, j)) = best else { break };
         selection.rows.push(i);
         selection.dependent.push(j);
         open.retain(|&o| o != i);
-        own.clear((i, j), &open);
-        at_start = at_start.filter(|start| start.is_usable(i, j));
-        if let Some(start) = &mut at_start {
-            start.clear((i, j), &open);
+        for &o in &open {
+            let factor = a[o * n + j] / a[i * n + j];
+            for c in 0..n {
+                a[o * n + c] -= factor * a[i * n + c];
+                sizes[o * n + c] += factor.abs() * sizes[i * n + c];
+            }
+            a[o * n + j] = 0.0;
         }
     }
     sort_pairs(&mut selection);
     selection
-}
-
-/// What elimination has left of a matrix of numbers.
-struct Remainder {
-    /// The entries, row by row.
-    entries: Vec<f64>,
-    /// Of which size the terms of each entry were.
-    sizes: Vec<f64>,
-    /// The largest entry of each row at first.
-    scale: Vec<f64>,
-    n: usize,
-    least: f64,
-}
-
-impl Remainder {
-    fn of(entries: Vec<f64>, n: usize, least: f64) -> Remainder {
-        let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        Remainder {
-            sizes: entries.iter().map(|x| x.abs()).collect(),
-            scale: entries.chunks(n.max(1)).map(largest).collect(),
-            entries,
-            n,
-            least,
-        }
-    }
-
-    /// Whether an entry is more than what rounding leaves of its terms.
-    fn is_usable(&self, i: usize, j: usize) -> bool {
-        let place = i * self.n + j;
-        let entry = self.entries[place].abs();
-        entry > self.least * self.sizes[place] && entry > self.least * self.scale[i]
-    }
-
-    /// Subtracts the row of a pivot from those that are open.
-    fn clear(&mut self, (i, j): (usize, usize), open: &[usize]) {
-        let n = self.n;
-        for &o in open {
-            let factor = self.entries[o * n + j] / self.entries[i * n + j];
-            for c in 0..n {
-                self.entries[o * n + c] -= factor * self.entries[i * n + c];
-                self.sizes[o * n + c] += factor.abs() * self.sizes[i * n + c];
-            }
-            self.entries[o * n + j] = 0.0;
-        }
-    }
 }
 
 /// Rows ascending, so that output follows the order of the model.

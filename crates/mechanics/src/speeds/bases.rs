@@ -2,9 +2,7 @@
 
 use super::candidates;
 use crate::characteristics::Parameter;
-use crate::elimination::{new_speed, Elimination, Step, Writing};
-use crate::sample::Start;
-use crate::selection::eliminate;
+use crate::elimination::{new_speed, Elimination, Start, Step, Writing};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::simplify::{simplify_all, Options};
@@ -133,7 +131,7 @@ fn of_kinetic_energy(system: &System, base: &Basis, start: &Start) -> Option<Bas
         let is_single = g.as_symbol(form).is_some();
         if forms.len() < k
             && !g.is_zero(own)
-            && is_independent(system, start, &g.jacobian(&all, &symbols))
+            && start.is_independent(g, &g.jacobian(&all, &symbols))
         {
             let name = format!("{}{i}", candidates::FORM);
             let mut speed = new_speed(g, &name, form);
@@ -178,14 +176,4 @@ fn of_kinetic_energy(system: &System, base: &Basis, start: &Start) -> Option<Bas
         speeds: forms.into_iter().map(|(p, _)| p).collect(),
         velocities: simplify_all(g, &velocities, &Options::default()),
     })
-}
-
-/// Whether the rows of a matrix are independent at the start.
-fn is_independent(system: &System, start: &Start, rows: &[Vec<Expr>]) -> bool {
-    let Some(values) = start.values(&system.graph, &rows.concat()) else {
-        return false;
-    };
-    let n = rows.first().map_or(0, Vec::len);
-    let cost = vec![vec![0; n]; rows.len()];
-    eliminate(values, cost, n).rows.len() == rows.len()
 }

@@ -14,13 +14,12 @@ mod candidates;
 pub use candidates::{Candidate, Proposal, CANDIDATES};
 
 use crate::characteristics::{Characteristics, Parameter};
-use crate::elimination::new_speed;
+use crate::elimination::{new_speed, Start};
 use crate::equations::unused_name;
 use crate::mass;
 use crate::prover::assumptions;
 use crate::reduced_equations::ReducedEquations;
 use crate::regular::denominators;
-use crate::sample::Start;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use bases::{Basis, SEARCHED};
