@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from . import chetaev_native as native
+from .asked import seconds
 from .errors import OptionError
 from .results import Explanation, Study, Verification
 
@@ -69,7 +70,7 @@ def verify(
         said, agrees = _examined(text)
         return Verification(json.loads(said), agrees)
     beside = _checksums(os.path.dirname(os.fspath(record))) if isinstance(record, (str, os.PathLike)) else None
-    said, agrees = native.verify(text, budget, None, beside)
+    said, agrees = native.verify(text, seconds("budget", budget), None, beside)
     return Verification(json.loads(said), agrees)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.logic.boolalg import Boolean
 
 from .errors import ModelWarning
 from .texts import known_functions, of_sympy
@@ -105,14 +106,19 @@ class Statement:
 
         if isinstance(lagrangian, (me.LagrangesMethod, me.KanesMethod)) or hasattr(lagrangian, "kdes"):
             raise TypeError(f"coordinates: {type(lagrangian).__name__} states its own; they belong to a Lagrangian")
+        if isinstance(constraints, (sp.Expr, Boolean)):
+            constraints = [constraints]
         listed = constraints if isinstance(constraints, Mapping) else {
             f"constraint_{number}": own for number, own in enumerate(constraints, 1)
         }
-        equations = {name: _equation(own) for name, own in listed.items()}
+        if not isinstance(forces or {}, Mapping):
+            raise TypeError(f"forces: a mapping from coordinates to expressions is needed, not {type(forces).__name__}")
+        named = dict(definitions or {})
+        _no_texts({"the Lagrangian": lagrangian, **listed, **{f"the force on {key}": own for key, own in (forces or {}).items()}})
+        equations = {name: _equation(name, own) for name, own in listed.items()}
         self._coordinates = [sp.sympify(own) for own in coordinates]
         time = _time(self._coordinates)
-        forces = {_found(key, self._coordinates, "forces", "coordinate"): own for key, own in (forces or {}).items()}
-        named = dict(definitions or {})
+        forces = _by_objects(forces or {}, self._coordinates, "forces", "coordinate")
         laws = dict(controls) if isinstance(controls, Mapping) else dict.fromkeys(controls)
         lawful = [own for own in laws.values() if hasattr(own, "free_symbols")]
         whole = [known_functions(own) for own in [lagrangian, *equations.values(), *forces.values(), *named.values(), *lawful]]
@@ -136,6 +142,7 @@ class Statement:
             "lagrangian": {"L": self.text(lagrangian)},
             "constraints": {name: self.text(own) for name, own in equations.items()},
             "forces": {names[key]: self._value(own) for key, own in forces.items() if own != 0},
+            "assumptions": [f"{names[own]} {said}" for own in symbols if (said := _assumed(own)) is not None],
         }
         self.sections = {key: own for key, own in self.sections.items() if own}
 
@@ -152,7 +159,10 @@ class Statement:
                 return [plain(value) for value in own]
             return self._value(own)
 
-        return {key: plain(own) for key, own in sections.items()}
+        found = {key: plain(own) for key, own in sections.items()}
+        if "assumptions" in found:
+            found["assumptions"] = self.sections.get("assumptions", []) + list(found["assumptions"])
+        return found
 
     def state(self, equations: Iterable[Any], unknowns: Sequence[Any] = ()) -> None:
         """States expressions that somebody says vanish along the motion, under the name ``sympy``."""
@@ -168,8 +178,23 @@ class Statement:
         return self.origins.text(expression)
 
 
-def _equation(own: Any) -> Any:
+def _no_texts(stated: Mapping[str, Any]) -> None:
+    """SymPy would read `x` in a text as a symbol that is no coordinate."""
+    for name, own in stated.items():
+        if isinstance(own, str):
+            raise TypeError(f"{name}: an expression of SymPy is needed, not the text {own!r}; System(…) itself takes texts")
+
+
+def _equation(name: str, own: Any) -> Any:
+    if isinstance(own, Boolean) and not isinstance(own, sp.Equality):
+        raise ValueError(f"{name}: an equation or an expression that vanishes is needed, and {own} is none")
     return own if isinstance(own, sp.Equality) else sp.Eq(sp.sympify(own), 0, evaluate=False)
+
+
+def _assumed(symbol: Any) -> str | None:
+    """What SymPy has been told of the sign of a symbol: expressions may have been simplified by it."""
+    said = (("is_positive", "> 0"), ("is_negative", "< 0"), ("is_nonnegative", ">= 0"), ("is_nonpositive", "<= 0"), ("is_nonzero", "!= 0"))
+    return next((words for asked, words in said if getattr(symbol, asked)), None)
 
 
 def _time(coordinates: Sequence[Any]) -> Any:
@@ -180,6 +205,9 @@ def _time(coordinates: Sequence[Any]) -> Any:
     clocks = sorted({own.args[0] for own in coordinates}, key=sp.srepr)
     if len(clocks) != 1 or not isinstance(clocks[0], sp.Symbol):
         raise ValueError(f"coordinates are functions of one time, not of {', '.join(sp.srepr(own) for own in clocks) or 'nothing'}")
+    for number, own in enumerate(coordinates):
+        if own in coordinates[:number]:
+            raise ValueError(f"coordinates: {own} is named twice")
     return clocks[0]
 
 
@@ -203,10 +231,21 @@ def _found(key: Any, among: Sequence[Any], where: str, what: str) -> Any:
     raise ValueError(f"{where}: {key} is no {what}; there are {', '.join(map(str, among)) or 'none'}")
 
 
+def _by_objects(given: Mapping[Any, Any], among: Sequence[Any], where: str, what: str) -> dict[Any, Any]:
+    """What is said by names or by objects, by the objects; once of each."""
+    found: dict[Any, Any] = {}
+    for key, own in given.items():
+        known = _found(key, among, where, what)
+        if known in found:
+            raise ValueError(f"{where}: {known} is named twice")
+        found[known] = own
+    return found
+
+
 def _values(given: Mapping[Any, Any] | Iterable[Any] | None, symbols: Sequence[Any]) -> dict[Any, Any]:
     """Values of parameters by their symbols."""
     listed = given if isinstance(given, Mapping) else {own: {} for own in given or ()}
-    return {_found(key, symbols, "parameters", "symbol of the statement"): own for key, own in listed.items()}
+    return _by_objects(listed, symbols, "parameters", "symbol of the statement")
 
 
 def _names(wanted: Iterable[tuple[Any, str]]) -> dict[Any, str]:
@@ -237,6 +276,7 @@ def of_bodies(
     holonomic: Iterable[Any] = (),
     velocity: Iterable[Any] = (),
     auxiliary: Iterable[Any] = (),
+    potential: Any = 0,
     parameters: Any = None,
     derived: Iterable[Any] = (),
 ) -> Statement:
@@ -245,7 +285,8 @@ def of_bodies(
     A velocity that is no derivative of a function of the coordinates, as of a wheel whose rolling is put into it, belongs to a place
     that the coordinates do not tell. This place is a coordinate of its own here, and the velocity a constraint: Lagrange's operator of a
     kinetic energy into which constraints were put is wrong (Lindelöf's mistake). So it is with speeds that only velocity constraints
-    determine, as that of a wheel about its axle: they are rates of coordinates of their own. ``auxiliary`` speeds are zero, and ``derived`` are
+    determine, as that of a wheel about its axle: they are rates of coordinates of their own. ``auxiliary`` speeds are zero, ``potential`` is an energy of the
+    forces that are no loads, and ``derived`` are
     expressions that are said to vanish along the motion.
     """
     t = coordinates[0].args[0]
@@ -308,10 +349,11 @@ def of_bodies(
         for own, rate in zip(coordinates, rates, strict=True):
             forces[own] += sum((f * v.diff(rate) for f, v in zip(applied, components, strict=True)), sp.S.Zero)
     derived = [in_rates(own) for own in derived]
-    everything = [kinetic, *forces.values(), *constraints.values(), *derived]
+    lagrangian = kinetic - in_rates(potential)
+    everything = [lagrangian, *forces.values(), *constraints.values(), *derived]
     controls = _functions([*everything, *definitions.values()]) - {*coordinates, *places, *definitions}
     found = Statement(
-        kinetic, coordinates + places, constraints=constraints, forces=forces, parameters=parameters, controls=controls,
+        lagrangian, coordinates + places, constraints=constraints, forces=forces, parameters=parameters, controls=controls,
         definitions=definitions,
     )
     if derived:
@@ -548,6 +590,7 @@ def statement(what: Any, parameters: Any = None, *, derived: bool = False) -> St
     if is_kane:
         if what.bodies is None or what.forcing is None:
             raise ValueError("this KanesMethod has not formed its equations, and knows no bodies: call kanes_equations first")
+        _without_potential(what.bodies)
         equations = list(what.mass_matrix * sp.Matrix([own.diff(own.args[0]) for own in what.u]) - what.forcing) if derived else []
         # As they were stated, and not solved for the rates.
         kinematics = what._k_kqdot_implicit * sp.Matrix(what._qdot) + what._k_ku_implicit * sp.Matrix(what.u) + what._f_k_implicit
@@ -568,11 +611,28 @@ def statement(what: Any, parameters: Any = None, *, derived: bool = False) -> St
         # Those that the user has put in the place of all, or those that are no derivatives of finite ones.
         velocity = what.nonholonomic_constraints if what._vel_constrs is None else what.velocity_constraints
         loads = list(what.loads) + [own for actuator in what.actuators for own in actuator.to_loads()]
+        # Of the two methods by which a System forms equations only Lagrange's reads the potential energies of bodies.
+        is_whole = isinstance(what.eom_method, me.LagrangesMethod)
+        potential = sum((own.potential_energy for own in what.bodies), sp.S.Zero) if is_whole else sp.S.Zero
+        if not is_whole:
+            _without_potential(what.bodies)
         return of_bodies(
             what.frame, list(what.q), list(what.u), list(what.kdes), list(what.bodies), loads,
-            holonomic=list(what.holonomic_constraints), velocity=list(velocity), auxiliary=list(what.u_aux), parameters=parameters,
+            holonomic=list(what.holonomic_constraints), velocity=list(velocity), auxiliary=list(what.u_aux), potential=potential,
+            parameters=parameters,
         )
     raise TypeError(f"{type(what).__name__} states no system that is known here")
+
+
+def _without_potential(bodies: Iterable[Any]) -> None:
+    """Says which potential energies are not stated."""
+    names = [own.name for own in bodies if own.potential_energy != 0]
+    if names:
+        said = (
+            f"the potential energy of {', '.join(names)} is left out, as Kane's method leaves it out: its force is to be among the loads; a System "
+            "whose equations are formed by LagrangesMethod has it"
+        )
+        warnings.warn(said, ModelWarning, stacklevel=4)
 
 
 def _speeds(system: Any) -> dict[Any, Any]:
@@ -584,6 +644,8 @@ def _speeds(system: Any) -> dict[Any, Any]:
 
 def _of_lagrange(method: Any, parameters: Any, derived: bool, speeds: Mapping[Any, Any] | None = None) -> Statement:
     """What a LagrangesMethod states; ``speeds`` are put in by the rates of the coordinates."""
+    if derived and method.eom is None:
+        raise ValueError("derived: this LagrangesMethod has not formed its equations: call form_lagranges_equations first")
     coordinates = list(method.q)
     known = dict(speeds or {})
     forces: dict[Any, Any] = {own: sp.S.Zero for own in coordinates}

@@ -14,6 +14,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from . import notebook
+from .asked import number, whole
+from .asked import seconds as seconds_of
 from .keywords import in_python, of_data
 
 if TYPE_CHECKING:
@@ -28,6 +30,10 @@ if TYPE_CHECKING:
     from .trees import Module
 
 Json = Any
+
+#: The longest side of a picture in pixels.
+_SIDE = 8192
+
 
 def write(path: str | os.PathLike[str], content: bytes) -> None:
     """Writes a file completely or not at all."""
@@ -1020,8 +1026,17 @@ class Trajectory(Result):
         Returns
         -------
         Picture
+
+        Raises
+        ------
+        ValueError
+            For a time outside the motion.
         """
-        return Picture(self._outcome, at, ghosts, (width, height))
+        first, last = sorted((self._data["t_start"], self._data["t"]))
+        if at is not None and not first <= number("at", at) <= last:
+            raise ValueError(f"at: the motion is known from t = {first:g} to {last:g}, and not at {at}")
+        size = whole("width", width, 1, _SIDE), whole("height", height, 1, _SIDE)
+        return Picture(self._outcome, at, whole("ghosts", ghosts, 0, 2**32 - 1), size)
 
     def animate(self, *, seconds: float | None = None, width: int = 640, height: int = 360) -> Film:
         """The moving drawing, of so many seconds.
@@ -1040,7 +1055,8 @@ class Trajectory(Result):
         Film
             A GIF, which notebooks show.
         """
-        return Film(self._outcome, seconds, (width, height))
+        length = None if seconds is None else seconds_of("seconds", seconds)
+        return Film(self._outcome, length, (whole("width", width, 1, _SIDE), whole("height", height, 1, _SIDE)))
 
     def report(self) -> str:
         """The report, one HTML page with equations, plots and animation.

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import notebook
+from .asked import whole
 from .errors import Interrupted
 from .results import Result, write
 from .texts import exact
@@ -167,7 +168,7 @@ def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     """Ranges as the texts of the command line: texts as they are, lists and arrays value by value."""
     found = []
     for name, own in (given or {}).items():
-        values = [own] if isinstance(own, str) or not isinstance(own, Iterable) else list(own)
+        values = [own] if isinstance(own, str) or not isinstance(own, Iterable) else list(_whole_values(name, own))
         found.append((name, ",".join(exact(value) for value in values)))
     return found
 
@@ -185,11 +186,30 @@ def table_text(rows: Any) -> str | None:
     return "\n".join(lines) + "\n"
 
 
+def _whole_values(name: str, own: Any) -> Any:
+    """Values of which none is masked."""
+    import numpy as np
+
+    if isinstance(own, np.ma.MaskedArray) and bool(np.any(np.ma.getmaskarray(own))):
+        raise TypeError(f"`{name}` is a masked array: there is no value where it is masked; fill or compress it first")
+    return own
+
+
+def _reals(name: str, own: Any) -> NDArray[np.float64]:
+    """Numbers of which none is lost: neither what is masked nor an imaginary part."""
+    import numpy as np
+
+    found = np.asarray(_whole_values(name, own))
+    if np.iscomplexobj(found):
+        raise TypeError(f"`{name}` is complex, and values are real")
+    return np.atleast_1d(found.astype(np.float64))
+
+
 def columns_of(given: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
     """Columns of one length; numbers are repeated."""
     import numpy as np
 
-    wide = np.broadcast_arrays(*(np.atleast_1d(np.asarray(own, dtype=float)) for own in given.values()))
+    wide = np.broadcast_arrays(*(_reals(name, own) for name, own in given.items()))
     for name, own in zip(given, wide):
         if own.ndim != 1:
             raise ValueError(f"`{name}` has {own.ndim} dimensions: one value for each trajectory is needed")
@@ -264,13 +284,15 @@ def ensemble(
     >>> found["end_x"].shape
     (9,)
     """
+    twice = set(parameters or {}) & set(initial or {})
+    if twice:
+        raise ValueError(f"`{min(twice)}` stands among the parameters and among the initial values")
     columns = columns_of({**(parameters or {}), **(initial or {})})
     if not columns:
         raise ValueError("nothing varies: give arrays in `initial` or `parameters`")
     if executor is None and out is None:
         return system.sweep(rows=columns, samples=samples, threads=threads, progress=progress, **motion)
-    if chunk < 1:
-        raise ValueError("chunk: at least one trajectory is needed in a task")
+    chunk = whole("chunk", chunk, 1)
     count = len(next(iter(columns.values())))
     tasks = [
         _Task(system, {name: own[first : first + chunk] for name, own in columns.items()}, samples, motion, out, executor is None, threads)
@@ -304,7 +326,7 @@ class _Task:
 
     def __call__(self) -> tuple[Any, dict[int, str], list[str]]:
         """Arrays, failures, names of events; of a chunk that is kept in a file its path."""
-        if self.path is not None and os.path.exists(self.path):
+        if self.path is not None and _is_kept(self.path):
             return self.path, {}, []
         found = self.system.sweep(rows=self.columns, samples=self.samples, threads=self.threads, **self.motion)
         if self.path is None:
@@ -316,6 +338,18 @@ class _Task:
         parquet.write_table(table.replace_schema_metadata({"events": json.dumps(list(found.to_dict()["events"]))}), sink)
         write(self.path, sink.getvalue())
         return self.path, {}, []
+
+
+def _is_kept(path: str) -> bool:
+    """Whether a chunk is kept in a file; one that a broken disk has left is computed again."""
+    import pyarrow as pa
+    import pyarrow.parquet as parquet
+
+    try:
+        parquet.read_metadata(path)
+    except (OSError, pa.ArrowException):
+        return False
+    return True
 
 
 def _call(task: _Task) -> tuple[Any, dict[int, str], list[str]]:

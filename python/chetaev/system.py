@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import operator
 import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from . import chetaev_native as native
+from .asked import number, seconds, whole
 from .errors import Interrupted, ModelWarning
 from .keywords import in_python
 from .results import (
@@ -277,9 +277,10 @@ class System:
         from .from_sympy import Statement, statement
 
         if coordinates is None:
-            constraints = constraints if isinstance(constraints, Mapping) else list(constraints)
-            for word, given in (("constraints", constraints), ("forces", forces)):
-                if given:
+            given = constraints if isinstance(constraints, Mapping) or not isinstance(constraints, Iterable) else list(constraints)
+            for word, own in (("constraints", given), ("forces", forces)):
+                # What SymPy has is no truth value.
+                if own is not None and own not in ([], {}):
                     raise TypeError(f"{word}: {type(lagrangian).__name__} states its own; they belong to a Lagrangian with its coordinates")
             stated = statement(lagrangian, parameters, derived=derived)
         else:
@@ -921,6 +922,9 @@ class System:
         """
         from .sweeps import computed, ranges, table_text
 
+        samples, seed = whole("samples", samples, 0, 2**32 - 1), whole("seed", seed, 0)
+        count = None if count is None else whole("count", count, 1)
+        threads = None if threads is None else whole("threads", threads, 1, 4096)
         asked = _asked(
             t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
@@ -1095,6 +1099,7 @@ class System:
         Followed
             Points along the curve, and special ones.
         """
+        points = whole("points", points, 1, 2**32 - 1)
         with _Progress(progress) as tell:
             text, data = self._native.follow(about, over, orbit, period, points, step, tell)
         return Followed(json.loads(data), text)
@@ -1288,37 +1293,18 @@ def _asked(**options: Any) -> dict[str, Any]:
     for name in ("t_end", "step"):
         if asked[name] is not None:
             asked[name] = exact(asked[name])
-    for name in ("budget", "tolerance"):
+    for name, kind in (("budget", seconds), ("tolerance", number)):
         if asked[name] is not None:
-            asked[name] = _number(name, asked[name])
+            asked[name] = kind(name, asked[name])
     for name in ("project", "keep_integrals"):
         asked[name] = bool(asked[name])
     if asked["branch"] is not None:
-        try:
-            asked["branch"] = operator.index(asked["branch"])
-        except TypeError:
-            raise TypeError(f"branch: a whole number is needed, not {asked['branch']!r}") from None
-        if asked["branch"] < 1:
-            raise ValueError(f"branch: branches are counted from 1, and {asked['branch']} is none")
+        asked["branch"] = whole("branch", asked["branch"], 1)
     for name in ("claims", "method", "precision", "formulation"):
         if asked[name] is not None and not isinstance(asked[name], str):
             raise TypeError(f"{name}: a text is needed, not {type(asked[name]).__name__}")
     asked["kappa"] = _pairs(options.get("kappa"))
     return asked
-
-
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool):
-        raise TypeError(f"{name}: a number is needed, not a truth value")
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise type_or_value(value)(f"{name}: a number is needed, not {value!r}") from None
-
-
-def type_or_value(value: Any) -> type[Exception]:
-    """What Python raises for a text that is no number, and for what can be none."""
-    return ValueError if isinstance(value, str) else TypeError
 
 
 def _wanted(**options: Any) -> dict[str, Any]:

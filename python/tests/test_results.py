@@ -322,3 +322,18 @@ def test_evidence_is_all_there_in_sentences() -> None:
         "It took 0.012 s.", "x^2", "at J = 2: the residual lies between -1.5 and -1.4", "Of a later version: bound 7.",
     ):
         assert words in said, words
+
+
+def test_pictures_are_of_the_motion_that_is_known(sleigh: System) -> None:
+    motion = sleigh.simulate(t_end=1)
+    for at in (1.5, -0.1, float("nan")):
+        with pytest.raises(ValueError, match="at: the motion is known from t = 0 to 1"):
+            motion.picture(at=at)
+    for keywords in ({"ghosts": -1}, {"width": 0}, {"height": 10**9}):
+        with pytest.raises(ValueError, match=f"{next(iter(keywords))}: a whole number from"):
+            motion.picture(**keywords)  # type: ignore[arg-type, unused-ignore]
+    for seconds in (-1, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="seconds: a finite number"):
+            motion.animate(seconds=seconds)
+        with pytest.raises(ValueError, match="budget: a finite number"):
+            sleigh.study(claims="energy.integral", budget=seconds)

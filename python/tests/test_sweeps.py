@@ -164,3 +164,46 @@ def test_a_process_that_dies_costs_its_chunk_only(sleigh: System, tmp_path: Path
         found = chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, executor=pool, chunk=3)
     assert os.path.exists(mark)
     same(found, chetaev.ensemble(sleigh, parameters=VARIED, t_end=1))
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        (np.ma.masked_array([0.1, 0.2], [False, True]), "masked"),
+        (np.array([0.1 + 1j, 0.2]), "complex"),
+        (np.ones((2, 2)), "2 dimensions"),
+    ],
+)
+def test_no_part_of_a_value_is_lost(sleigh: System, values: Any, said: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=said):
+        chetaev.ensemble(sleigh, parameters={"a": values}, t_end=1)
+    with pytest.raises((TypeError, ValueError)):
+        sleigh.sweep(vary={"a": values}, t_end=1)
+
+
+def test_a_name_that_varies_twice_is_refused(sleigh: System) -> None:
+    with pytest.raises(ValueError, match="`a` stands among the parameters and among the initial values"):
+        chetaev.ensemble(sleigh, parameters={"a": [0.1]}, initial={"a": [0.2]}, t_end=1)
+
+
+def test_a_file_that_is_not_whole_is_computed_again(sleigh: System, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    first = chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, chunk=5, out=tmp_path)
+    broken = next(tmp_path.glob("*.parquet"))
+    broken.write_bytes(broken.read_bytes()[:-9])
+    same(first, chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, chunk=5, out=tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("keywords", "said"),
+    [
+        ({"samples": -1}, "samples: a whole number from 0"),
+        ({"samples": 2.5}, "samples: a whole number is needed, not 2.5"),
+        ({"threads": 0}, "threads: a whole number from 1 to 4096"),
+        ({"seed": -1}, "seed: a whole number from 0"),
+        ({"count": -1}, "count: a whole number from 1"),
+    ],
+)
+def test_numbers_out_of_range_are_told_by_their_keyword(sleigh: System, keywords: dict[str, Any], said: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=said):
+        sleigh.sweep(vary={"a": [0.1]}, t_end=1, **keywords)

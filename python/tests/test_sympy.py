@@ -286,3 +286,79 @@ def test_functions_that_a_model_does_not_have_are_written_by_others() -> None:
     assert sp.Rational(of_sympy(sp.Float("1e-400"))) > 0
     with pytest.raises(ValueError, match="EulerGamma"):
         of_sympy(sp.EulerGamma)
+
+
+def sprung() -> Any:
+    """A particle on a line, with the energy of a spring stated of it."""
+    q, u = me.dynamicsymbols("q u")
+    m, k = sp.symbols("m k", positive=True)
+    frame, origin = me.ReferenceFrame("N"), me.Point("O")
+    origin.set_vel(frame, 0)
+    place = origin.locatenew("P", q * frame.x)
+    place.set_vel(frame, u * frame.x)
+    particle = me.Particle("bob", place, m)
+    particle.potential_energy = k * q**2 / 2
+    system = me.System(frame=frame, fixed_point=origin)
+    system.add_bodies(particle)
+    system.add_coordinates(q)
+    system.add_speeds(u)
+    system.add_kdes(q.diff() - u)
+    return system
+
+
+def test_potential_energies_of_bodies_are_in_it_or_said_to_be_left_out() -> None:
+    # Lagrange's method of SymPy reads them, Kane's does not.
+    system = sprung()
+    system.form_eoms(eom_method=me.LagrangesMethod)
+    np.testing.assert_allclose(accelerations(System.from_sympy(system), {"m": 2, "k": 3}, np.array([0.4, 0.0])), [-3 * 0.4 / 2], rtol=1e-14)
+    system = sprung()
+    for _ in range(2):
+        with pytest.warns(UserWarning, match="the potential energy of bob is left out"):
+            assert "k" not in System.from_sympy(system).parameters
+        system.form_eoms()
+    with pytest.warns(UserWarning, match="the potential energy of bob is left out"):
+        System.from_sympy(system.eom_method)
+
+
+def test_signs_that_sympy_was_told_are_assumptions() -> None:
+    x = me.dynamicsymbols("x")
+    m, k = sp.Symbol("m", positive=True), sp.Symbol("k", nonnegative=True)
+    # SymPy writes c for the root of c^2 only because it is positive.
+    L = sp.sqrt(m**2) * x.diff() ** 2 / 2 - k * x**2 / 2
+    system = System.from_sympy(L, [x], parameters={m: 2, k: 0}, assumptions=["k < 5"])
+    assert 'assumptions = ["k >= 0", "m > 0", "k < 5"]' in system.text
+    assert system.study(claims="model.hessian-regular")["model.hessian-regular"].verdict == "proved"
+    with pytest.raises(ValueError, match="assumption `m > 0` does not hold"):
+        System.from_sympy(L, [x], parameters={m: -2})
+
+
+@pytest.mark.parametrize(
+    ("keywords", "said"),
+    [
+        ({"lagrangian": "Derivative(x(t), t)**2/2"}, "the Lagrangian: an expression of SymPy is needed"),
+        ({"forces": {"x": "-x"}}, "the force on x: an expression of SymPy is needed"),
+        ({"constraints": ["x - y"]}, "constraint_1: an expression of SymPy is needed"),
+        ({"constraints": [sp.true]}, "constraint_1: an equation or an expression that vanishes is needed"),
+        ({"constraints": {"wall": me.dynamicsymbols("x") > 0}}, "wall: an equation or an expression that vanishes is needed"),
+        ({"forces": [1]}, "a mapping from coordinates to expressions is needed, not list"),
+        ({"forces": {"x": 1, me.dynamicsymbols("x"): 2}}, "forces: x\\(t\\) is named twice"),
+        ({"coordinates": me.dynamicsymbols("x x")}, "coordinates: x\\(t\\) is named twice"),
+    ],
+)
+def test_texts_and_what_is_no_equation_are_refused(keywords: dict[str, Any], said: str) -> None:
+    x = me.dynamicsymbols("x")
+    with pytest.raises((TypeError, ValueError), match=said):
+        System.from_sympy(**{"lagrangian": x.diff() ** 2 / 2, "coordinates": [x], **keywords})
+
+
+def test_one_constraint_needs_no_list() -> None:
+    x, y = me.dynamicsymbols("x y")
+    L = (x.diff() ** 2 + y.diff() ** 2) / 2
+    for own in (y.diff() - x * x.diff(), sp.Eq(y.diff(), x * x.diff())):
+        assert System.from_sympy(L, [x, y], constraints=own).constraints == ["constraint_1"]
+
+
+def test_equations_that_were_not_formed_are_asked_for() -> None:
+    x = me.dynamicsymbols("x")
+    with pytest.raises(ValueError, match="form_lagranges_equations"):
+        System.from_sympy(me.LagrangesMethod(x.diff() ** 2 / 2, [x]), derived=True)
