@@ -159,9 +159,15 @@ class Statement:
                 return [plain(value) for value in own]
             return self._value(own)
 
-        found = {key: plain(own) for key, own in sections.items()}
+        found = {key: plain(own) for key, own in sections.items() if own is not None}
         if "assumptions" in found:
             found["assumptions"] = self.sections.get("assumptions", []) + list(found["assumptions"])
+        if not isinstance(found.get("controls", {}), Mapping):
+            found["controls"] = dict.fromkeys(found["controls"])
+        for key, own in found.items():
+            # Laws of some controls, and further definitions, leave the others.
+            if isinstance(own, Mapping) and isinstance(self.sections.get(key), Mapping):
+                found[key] = {**self.sections[key], **own}
         return found
 
     def state(self, equations: Iterable[Any], unknowns: Sequence[Any] = ()) -> None:
@@ -472,12 +478,16 @@ class _Point:
         free = sorted(_functions(whole) - set(coordinates), key=str)
         self.free = {own: [sp.Dummy() for _ in range(3)] for own in free}
         self.others: list[Any] = sorted(symbols, key=str) + [name for own in self.free.values() for name in own]
+        self._constant = sorted(symbols, key=str)
+        draw = random.Random(33)
         with mpmath.workdps(50):
-            self.values = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in self.places]
-            self.constants = [mpmath.mpf(random.uniform(0.3, 1.2)) for _ in self.others]
-            self.along: Any = mpmath.eye(len(self.places))
-            if conditions:
-                self._meet(conditions)
+            for _ in range(10):
+                self.values = [mpmath.mpf(draw.uniform(0.3, 1.2)) for _ in self.places]
+                self.constants = [mpmath.mpf(draw.uniform(0.3, 1.2)) for _ in self.others]
+                self.along: Any = mpmath.eye(len(self.places))
+                if not conditions or self._meet(conditions):
+                    return
+        raise ValueError("no positions were found that satisfy the holonomic constraints")
 
     def function(self, expressions: Sequence[Any]) -> Any:
         """Of places, rates and constants, in this order."""
@@ -489,29 +499,35 @@ class _Point:
         plain = [sp.sympify(own).xreplace(renamed) for own in expressions]
         return sp.lambdify(names, plain, modules="mpmath", cse=True)
 
-    def _meet(self, conditions: Sequence[Any]) -> None:
-        """Newton's steps of least norm to the positions, and the directions along them."""
+    def _meet(self, conditions: Sequence[Any]) -> bool:
+        """Newton's steps of least norm to positions, and the directions along them; constants are changed too, as loops of random lengths do not
+        close. Whether it came to a point."""
         mp, count = self.mp, len(self.places)
-        slopes = [own.diff(place) for own in conditions for place in self.places]
+        unknown = [*self.places, *self._constant]
+        slopes = [own.diff(place) for own in conditions for place in unknown]
         found = self.function([*conditions, *slopes])
         for _ in range(60):
             numbers = found(*self.values, *[0] * len(self.rates), *self.constants)
+            if any(mp.im(own) != 0 for own in numbers):
+                return False
+            numbers = [mp.re(own) for own in numbers]
             left = mp.matrix(numbers[: len(conditions)])
-            slope = mp.matrix(len(conditions), count)
+            slope = mp.matrix(len(conditions), len(unknown))
             for number, value in enumerate(numbers[len(conditions) :]):
-                slope[number // count, number % count] = value
+                slope[number // len(unknown), number % len(unknown)] = value
             slope[:, 0] = mp.zeros(len(conditions), 1)
-            u, sizes, v = mp.svd_r(slope, full_matrices=True)
-            rank = sum(1 for own in sizes if own > 1e-12)
             if mp.norm(left) < mp.mpf(10) ** -40:
-                break
-            step = mp.zeros(count, 1)
-            for k in range(rank):
+                _, sizes, v = mp.svd_r(slope[:, :count], full_matrices=True)
+                self.along = v[sum(1 for own in sizes if own > 1e-12) :, :]
+                return True
+            u, sizes, v = mp.svd_r(slope, full_matrices=True)
+            step = mp.zeros(len(unknown), 1)
+            for k in range(sum(1 for own in sizes if own > 1e-12)):
                 step += v[k, :].T * ((u[:, k].T * left)[0] / sizes[k])
             self.values = [value - step[k] for k, value in enumerate(self.values)]
-        else:
-            raise ValueError("no positions were found that satisfy the holonomic constraints")
-        self.along = v[rank:, :]
+            for k in range(len(self._constant)):
+                self.constants[k] -= step[count + k]
+        return False
 
     def curls(self, components: Sequence[Any]) -> tuple[list[list[Any]], list[Any]]:
         """Of a vector linear in the rates: its coefficients A along the positions, of the time first; and for each component the differences
@@ -567,8 +583,9 @@ class _Point:
 
 def _numbers(matrix: Any) -> Any:
     """A matrix at a random point, with what rounding leaves taken for zero."""
-    atoms = matrix.atoms(sp.Derivative, AppliedUndef, sp.Symbol)
-    point = {own: sp.Float(random.uniform(0.3, 1.2), 40) for own in atoms}
+    atoms = sorted(matrix.atoms(sp.Derivative, AppliedUndef, sp.Symbol), key=sp.srepr)
+    draw = random.Random(33)
+    point = {own: sp.Float(draw.uniform(0.3, 1.2), 40) for own in atoms}
     values = matrix.xreplace(point).evalf(40)
     return values.applyfunc(lambda own: own if abs(own) > 1e-20 else sp.S.Zero)
 

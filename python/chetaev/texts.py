@@ -106,7 +106,8 @@ def of_sympy(value: Any) -> str:
 
 
 def known_functions(value: Any) -> Any:
-    """A SymPy expression without functions that a model does not have: ``sech`` is ``1/cosh``; and with derivatives of expressions done."""
+    """A SymPy expression without functions that a model does not have: ``sech`` is ``1/cosh``; derivatives of expressions, sums and what else waits
+    to be done are done."""
     import sympy as sp
     from sympy.core.function import AppliedUndef
 
@@ -118,6 +119,9 @@ def known_functions(value: Any) -> Any:
     value = sp.sympify(value)
     if value.has(sp.Derivative):
         value = value.replace(lambda own: isinstance(own, sp.Derivative) and not isinstance(own.expr, AppliedUndef), lambda own: own.doit())
+    # What SymPy keeps as a name and writes out when it is asked, as the curves of muscles.
+    if value.has(sp.Subs, sp.Sum, sp.Product) or any(_is_written_out(own) for own in value.atoms(sp.Function)):
+        value = value.replace(lambda own: isinstance(own, (sp.Subs, sp.Sum, sp.Product)) or _is_written_out(own), lambda own: own.doit())
     for known, other in inverse.items():
         if not value.has(known):
             continue
@@ -128,6 +132,13 @@ def known_functions(value: Any) -> Any:
     if value.has(sp.coth):
         value = value.replace(sp.coth, lambda x: sp.cosh(x) / sp.sinh(x))
     return value.xreplace({sp.GoldenRatio: (1 + sp.sqrt(5)) / 2})
+
+
+def _is_written_out(own: Any) -> bool:
+    """Whether a function has a formula of its own that stands in its place."""
+    import sympy as sp
+
+    return isinstance(own, sp.Function) and not isinstance(own, sp.Piecewise) and type(own).doit not in (sp.Basic.doit, sp.Function.doit)
 
 
 def toml(sections: Mapping[str, Any]) -> str:

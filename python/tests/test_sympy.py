@@ -213,6 +213,18 @@ def test_controls_are_stated_by_functions_or_names() -> None:
     assert "sin(t)" in System.from_sympy(x.diff() ** 2 / 2 + f * x, [x], controls={f: sp.sin(t)}).text
 
 
+def test_a_law_of_one_control_leaves_the_others() -> None:
+    q, u, F, G = me.dynamicsymbols("q u F G")
+    frame, place = me.ReferenceFrame("N"), me.Point("P")
+    place.set_vel(frame, u * frame.x)
+    method = me.KanesMethod(frame, [q], [u], [q.diff() - u])
+    method.kanes_equations([me.Particle("p", place, 2)], [(place, (F + G) * frame.x)])
+    for controls in ({F: sp.sin(t)}, {"F": "sin(t)"}):
+        system = System.from_sympy(method, controls=controls)
+        assert "G = {" in system.text and "sin(t)" in system.text
+    assert "G = {" in System.from_sympy(method, controls=["F"]).text
+
+
 @pytest.mark.parametrize(
     ("keywords", "said"),
     [
