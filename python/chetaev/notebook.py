@@ -72,6 +72,11 @@ def paragraph(text: str) -> str:
     return f"<p style='margin:0.3em 0'>{html.escape(text)}</p>" if text else ""
 
 
+def heading(text: str) -> str:
+    """A heading of a part."""
+    return f"<h4>{html.escape(text)}</h4>"
+
+
 def unfolding(summary: str, body: str) -> str:
     """What is shown when it is asked for."""
     return f"<details><summary>{html.escape(summary)}</summary>{body}</details>" if body else html.escape(summary)

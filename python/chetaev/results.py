@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
-from . import notebook
+from . import notebook, written
 from .asked import number, whole
 from .asked import seconds as seconds_of
 from .keywords import in_python, of_data
@@ -115,6 +115,9 @@ class Check(Result):
     def diagnostics(self) -> list[dict[str, Any]]:
         """The problems, with keywords in the place of options of the command line."""
         return list(of_data(self.to_dict()))
+
+    def _html(self) -> str:
+        return written.problems(self.diagnostics, super()._html())
 
 
 class Equation:
@@ -327,9 +330,12 @@ class Counts(Result):
         super().__init__({"text": text, "notes": notes}, text)
         self.notes = notes
 
+    def _html(self) -> str:
+        return written.counts(str(self)) + "".join(map(notebook.paragraph, self.notes))
+
 
 class Steps(Result):
-    """A derivation step by step, each step proved as it is written; ``latex`` for a whole document.
+    """A derivation step by step, each step proved as it is written; its text is in the notation that was asked for.
 
     Attributes
     ----------
@@ -337,22 +343,83 @@ class Steps(Result):
         What a reader must know.
     """
 
-    def __init__(self, text: str, notes: list[str]) -> None:
+    def __init__(self, text: str, notes: list[str], system: System | None = None, asked: tuple[list[str], bool] = ([], False)) -> None:
         super().__init__({"text": text, "notes": notes}, text)
         self.notes = notes
+        self._system, self._asked = system, asked
+
+    def to_latex(self) -> str:
+        """The derivation in LaTeX.
+
+        Returns
+        -------
+        str
+            A whole document.
+        """
+        if self._is_latex():
+            return str(self)
+        if self._system is None:
+            raise ValueError("only what System.steps gave is written in LaTeX")
+        return self._system._native.steps(*self._asked, "latex")[0].rstrip("\n")
+
+    def _is_latex(self) -> bool:
+        return str(self).startswith("\\documentclass")
+
+    def _html(self) -> str:
+        shown = notebook.unfolding("the document", super()._html()) if self._is_latex() else written.steps(str(self))
+        return shown + "".join(map(notebook.paragraph, self.notes))
 
 
 class Comparison(Result):
     """Two forms of the equations held against each other: what differs, and why it vanishes."""
 
+    def _html(self) -> str:
+        return written.comparison(str(self)) + "".join(map(notebook.paragraph, self._data["notes"]))
+
 
 class Steady(Result):
     """All steady motions: ``motions`` with their values, exact and enclosed; families have free variables and equations."""
+
+    def __init__(self, system: System, data: Json, text: str) -> None:
+        super().__init__(data, text)
+        self._system = system
 
     @property
     def motions(self) -> list[dict[str, Any]]:
         """The motions, as in the JSON of the command."""
         return list(self.to_dict()["motions"])
+
+    def to_sympy(self) -> dict[str, dict[str, Any]]:
+        """The motions in SymPy.
+
+        Returns
+        -------
+        dict from str to dict
+            By the name of the motion: ``values``, a dict from the variables to expressions; ``equations``, a list of expressions that vanish
+            along it; ``not_negative``, a list of expressions that are not negative. Parameters of families are symbols. Numbers that have no
+            formula have the digits of their enclosure.
+
+        Examples
+        --------
+        >>> from chetaev import System
+        >>> System.from_gallery("double-pendulum").steady().to_sympy()["2"]["values"]["b"]
+        pi
+        """
+        from .steady import in_sympy
+
+        return in_sympy(self._system, self._data)
+
+    def to_latex(self) -> str:
+        """The motions in LaTeX; this needs SymPy.
+
+        Returns
+        -------
+        str
+            For displayed mathematics in a document with amsmath: an ``aligned`` environment for each motion.
+        """
+        from .steady import latex
+
+        return latex(self.to_sympy())
 
     def _html(self) -> str:
         data = self._data
@@ -1341,6 +1408,9 @@ class Study(Result):
 
 class Explanation(Result):
     """What a claim or a formulation states, and how it is decided."""
+
+    def _html(self) -> str:
+        return written.catalogue(self._data) if isinstance(self._data, list) else written.explanation(str(self))
 
 
 class Verification(Result):

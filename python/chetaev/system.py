@@ -278,9 +278,9 @@ class System:
 
         if coordinates is None:
             given = constraints if isinstance(constraints, Mapping) or not isinstance(constraints, Iterable) else list(constraints)
-            for word, own in (("constraints", given), ("forces", forces)):
+            for word, said in (("constraints", given), ("forces", forces)):
                 # What SymPy has is no truth value.
-                if own is not None and own not in ([], {}):
+                if said is not None and said not in ([], {}):
                     raise TypeError(f"{word}: {type(lagrangian).__name__} states its own; they belong to a Lagrangian with its coordinates")
             stated = statement(lagrangian, parameters, derived=derived)
         else:
@@ -289,8 +289,8 @@ class System:
             stated = Statement(
                 lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters, controls=sections.pop("controls", ()),
             )
-        for said in stated.renamed:
-            warnings.warn(said, ModelWarning, stacklevel=2)
+        for sentence in stated.renamed:
+            warnings.warn(sentence, ModelWarning, stacklevel=2)
         own = cls(name, **{**stated.sections, **stated.in_names(sections)})
         own._own = stated.origins
         return own
@@ -548,7 +548,8 @@ class System:
         """
         names = [formulation] if isinstance(formulation, str) else list(formulation)
         with _Progress(progress) as tell:
-            return Steps(*self._native.steps(names or ["reduced"], all, notation, tell))
+            asked = (names or ["reduced"], all)
+            return Steps(*self._native.steps(*asked, notation, tell), self, asked)
 
     def compare(self, a: str, b: str, *, progress: bool = False) -> Comparison:
         """Holds two forms of the equations against each other: ``derive --compare a b``.
@@ -964,7 +965,7 @@ class System:
         """
         with _Progress(progress) as tell:
             text, data = self._native.steady(symbolic, tell)
-        return Steady(json.loads(data), text)
+        return Steady(self, json.loads(data), text)
 
     def linearize(
         self,

@@ -337,3 +337,69 @@ def test_pictures_are_of_the_motion_that_is_known(sleigh: System) -> None:
             motion.animate(seconds=seconds)
         with pytest.raises(ValueError, match="budget: a finite number"):
             sleigh.study(claims="energy.integral", budget=seconds)
+
+
+def test_steady_motions_go_to_sympy_and_latex() -> None:
+    """A bead on a hoop that turns: it rests at the bottom, at the top, and where cos θ = g/(l ω²)."""
+    theta = sp.Function("theta")(sp.Symbol("t"))
+    g, length, w = sp.symbols("g l omega", positive=True)
+    T = length**2 * (theta.diff() ** 2 + w**2 * sp.sin(theta) ** 2) / 2
+    hoop = System.from_sympy(T + g * length * sp.cos(theta), [theta])
+    found = hoop.steady(symbolic=True)
+    motions = found.to_sympy()
+    places = {own["values"]["theta"] for own in motions.values()}
+    assert places == {0, sp.pi, sp.acos(g / (length * w**2)), -sp.acos(g / (length * w**2))}
+    for own in motions.values():
+        assert own["values"]["theta'"] == 0 and own["equations"] == []
+        is_tilted = own["values"]["theta"].has(sp.acos)
+        # The cosine is at most one: what is not negative is a multiple of l² ω⁴ - g².
+        assert len(own["not_negative"]) == (1 if is_tilted else 0)
+        if is_tilted:
+            assert sp.rem(own["not_negative"][0], length**2 * w**4 - g**2, g) == 0
+    assert "\\theta &= \\pi" in found.to_latex() and "\\dot{\\theta} &= 0" in found.to_latex() and "&\\ge 0" in found.to_latex()
+    # Parameters of a family are symbols, and a disc that rolls about in a circle satisfies what its equations say (Routh 1884).
+    disc = System.from_gallery("falling-rolling-disc")
+    values = disc.steady().to_sympy()["3"]["values"]
+    assert {own.name for own in values["psi'"].free_symbols} == {"theta_0", "phi_rate_0"}
+    numbers = {own: {"theta_0": 0.3, "phi_rate_0": 1.7}[own.name] for own in values["psi'"].free_symbols}
+    state = {"theta": 0.3, "phi'": 1.7, "psi'": float(values["psi'"].subs(numbers))}
+    f = disc.with_initial({own: value for own, value in state.items()} | {"theta'": 0, "phi": 0}).compile()
+    rates = dict(zip(f.state, f.rhs(0.0, f.start)))
+    assert [rates[own] for own in ("phi'", "theta'", "psi'")] == pytest.approx([0, 0, 0], abs=1e-9)
+
+
+def test_numbers_without_a_formula_have_their_digits() -> None:
+    quintic = System("quintic", coordinates=["q"], kinetic="1/2 q'^2", potential="1/6 q^6 - 1/2 q^2 - q")
+    (motion,) = quintic.steady().to_sympy().values()
+    root = motion["values"]["q"]
+    assert list(motion["values"]) == ["q", "q'"]
+    assert abs(root - sp.nsolve(sp.Symbol("q") ** 5 - sp.Symbol("q") - 1, 1.2, prec=30)) < 1e-17
+
+
+def test_texts_are_shown_in_parts(sleigh: System) -> None:
+    """What the library writes as a text is shown as headings, formulas and sentences, and nothing of it is lost."""
+    doubtful = System("doubtful", coordinates=["x"], parameters={"m": 1, "k": 2}, kinetic="1/2 m x'^2")
+    shown = {
+        "check": (doubtful.check(), ["<b", "model.toml:9:1", "occurs nowhere", "<table"]),
+        "no problems": (System("fine", coordinates=["x"], kinetic="1/2 x'^2").check(), ["There are no errors."]),
+        "counts": (sleigh.derive(all=True, count=True), ["<table", "<th", "functions", ">17<", "newton-euler"]),
+        "steps": (sleigh.steps(), ["<h4>1. The Lagrangian</h4>", "<code>Lstar = 1/2 m u^2 + 1/2 (J + m a^2) w^2</code>", "C_σ = Σ_i θ_i A^i_σ"]),
+        "equal": (sleigh.compare("routh", "maggi"), ["<h4>Routh", "<code>phi&#x27;&#x27; = 0</code>", ">proved</b> equal"]),
+        "other": (sleigh.compare("maggi", "vakonomic"), [">refuted</b> residual"]),
+        "claim": (chetaev.explain("energy.integral"), ["<h4>The energy is a first integral</h4>", "Requires: model.accelerations-unique"]),
+        "form": (chetaev.explain("maggi"), ["<h4>Maggi&#x27;s equations</h4>", ">Unknowns: rates"]),
+        "all claims": (chetaev.explain(), ["<summary>model: ", "<code>model.chaplygin</code>"]),
+    }
+    for name, (result, words) in shown.items():
+        page = result._repr_mimebundle_()["text/html"]
+        ElementTree.fromstring(f"<div>{page}</div>")
+        for word in words:
+            assert word in page, (name, word)
+        opened = re.sub(r"<details>.*</details>", "", page, flags=re.DOTALL)
+        assert "<pre>" not in opened, name
+        if name in ("steps", "equal", "other", "claim", "form"):
+            plain = re.sub(r"\s|\[|\]", "", "".join(ElementTree.fromstring(f"<div>{page}</div>").itertext()))
+            said = re.sub(r"\s|\[|\]", "", str(result))
+            assert plain == said if name != "other" else plain == said.replace("refuted:", "refuted"), name
+    assert sleigh.steps().to_latex() == sleigh.steps(notation="latex").to_latex() == str(sleigh.steps(notation="latex"))
+    assert "<summary>the document</summary>" in sleigh.steps(notation="latex")._html()

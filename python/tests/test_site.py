@@ -24,7 +24,7 @@ SAID = {
     "bicycle": ["4.292382536341", "6.024262015388", "conditional"],
     # Bloch, Krishnaprasad, Marsden, Murray 1996 have the momentum; Hénon and Heiles' case is C = 6 D.
     "integrals": ["psi' + theta'", "C = 6 D", "noether.inverse#wrong"],
-    "robot": ["'y': 1.0", "follows from the other constraints"],
+    "robot": ["'y': 1.0", "follows from the other constraints", "left_hub_torque(t)", "heading_dot"],
     "dask-sweep": ["again: True", "the same bits: True"],
     "checking-a-paper": ["equations.stated#page", "refuted", "proved", "confirmed"],
 }
