@@ -41,8 +41,9 @@ class Exported:
         The state from which ``simulate`` starts, in this order; not a number where the model determines none.
     """
 
-    def __init__(self, source: str, library: Any, names: tuple[list[str], list[str]], formulation: str) -> None:
+    def __init__(self, source: str, library: Callable[[], Any], names: tuple[list[str], list[str]], formulation: str) -> None:
         self.formulation = formulation
+        self._library = library
         space: dict[str, Any] = {}
         # The text begins with the import of NumPy, of which only these two arrays are made.
         exec(compile(source, "<chetaev>", "exec"), space)
@@ -51,8 +52,12 @@ class Exported:
         self.source = source
         self.state, known = names
         self.parameters: dict[str, float] = dict(zip(known, map(float, self.p)))
-        space["np"] = library
+        space["np"] = library()
         self.rhs: Callable[[Any, Any, Any], Any] = space["rhs"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        known = next(name for name, own in _LIBRARIES.items() if own is self._library)
+        return _exported, (self.source, known, (self.state, list(self.parameters)), self.formulation)
 
     def __repr__(self) -> str:
         return f"<rhs(t, y, p): y = ({', '.join(self.state)}), p = ({', '.join(self.parameters)})>"
@@ -119,6 +124,15 @@ def casadi_library() -> Any:
     }
     functions = {name: getattr(ca, name) for name in same} | {ours: getattr(ca, theirs) for ours, theirs in other.items()}
     return SimpleNamespace(array=array, linalg=SimpleNamespace(solve=solve), pi=ca.pi, nan=float("nan"), **functions)
+
+
+#: The libraries of which functions are made.
+_LIBRARIES = {"jax": jax_library, "casadi": casadi_library}
+
+
+def _exported(source: str, library: str, names: tuple[list[str], list[str]], formulation: str) -> Exported:
+    """A function again that was pickled."""
+    return Exported(source, _LIBRARIES[library], names, formulation)
 
 
 def names_of(source: str) -> tuple[list[str], list[str]]:

@@ -21,6 +21,8 @@ MAPPINGS = frozenset("vary initial kappa".split())
 _OTHERWISE = {"as": "notation", "steps": "steps()", "along": "along()", "show": "verdicts", "all": "verdicts", "lowered": "lowered()", "json": "to_dict()"}
 #: Commands with an option that makes them another method.
 _METHODS = {("linearize", "along"): "along()", ("derive", "steps"): "steps()", ("simulate", "sensitivity"): "sensitivity()"}
+#: Sentences of which Python has another one.
+_SENTENCES = {"`chetaev study` and `chetaev check` read functionals": "`chetaev.Functional` reads functionals"}
 #: Words that go on with a sentence where a value could stand.
 _ENGLISH = frozenset("or and says is takes with to decides runs from follows out".split())
 #: A value ends before a stop of the sentence, but for three dots.
@@ -33,6 +35,8 @@ def in_python(text: str) -> str:
     """A sentence of the library with keywords and methods in the place of options and commands."""
     if "--" not in text and "`chetaev " not in text:
         return text
+    for sentence, ours in _SENTENCES.items():
+        text = text.replace(sentence, ours)
     said = re.sub(r"(?:run )?with( `?--set)", r"by\1", text)
     return _OPTION.sub(_keyword, _COMMAND.sub(_method, said))
 

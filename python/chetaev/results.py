@@ -498,11 +498,15 @@ class Linearization(Result):
         The components of z: deviations from the motion.
     """
 
-    def __init__(self, system: System, native: Linear, text: str) -> None:
-        super().__init__(json.loads(native.json()), text)
+    def __init__(self, system: System, native: Linear, asked: Mapping[str, Any]) -> None:
+        super().__init__(json.loads(native.json()), native.ranges() if isinstance(self, Stability) else native.equations())
         self._system = system
         self._native = native
+        self._asked = dict(asked)
         self.variables: list[str] = self._data["variables"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _linear_again, (type(self), self._system, self._asked)
 
     def to_latex(self) -> str:
         """The matrices in LaTeX.
@@ -578,6 +582,11 @@ class Linearization(Result):
         cells = iter(flat)
         whole = [[next(cells) for _ in range(width)] for _ in rows]
         return sp.Matrix(whole[:height]), sp.Matrix(whole[height:])
+
+
+def _linear_again(kind: type[Linearization], system: System, asked: dict[str, Any]) -> Linearization:
+    """Linear equations that were pickled: computed again, exactly."""
+    return kind(system, system._native.stability(asked, None), asked)
 
 
 class Stability(Linearization):
@@ -741,6 +750,9 @@ class DenseOutput:
         after = rates[:, 1:] * h
         cubics = np.stack([start, slope[:, :-1], 3 * rise - 2 * slope[:, :-1] - after, slope[:, :-1] + after - 2 * rise])
         self._masses = cubics / h ** np.arange(4)[:, None, None]
+
+    def __repr__(self) -> str:
+        return f"<sol(t): y = ({', '.join(self.names)}), t from {self.t_min:g} to {self.t_max:g}>"
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """The state at a time, in the order of ``names``, shape (names,), or at many, shape (names, times).
@@ -1103,7 +1115,7 @@ class Trajectory(Result):
         if at is not None and not first <= number("at", at) <= last:
             raise ValueError(f"at: the motion is known from t = {first:g} to {last:g}, and not at {at}")
         size = whole("width", width, 1, _SIDE), whole("height", height, 1, _SIDE)
-        return Picture(self._outcome, at, whole("ghosts", ghosts, 0, 2**32 - 1), size)
+        return Picture(self._outcome, at, whole("ghosts", ghosts, 0, 2**32 - 1), size, self._again)
 
     def animate(self, *, seconds: float | None = None, width: int = 640, height: int = 360) -> Film:
         """The moving drawing, of so many seconds.
@@ -1198,9 +1210,15 @@ def _data_files(outcome: Outcome) -> dict[str, bytes]:
 class Picture(Shown):
     """The drawing of a motion at a time; notebooks show it."""
 
-    def __init__(self, outcome: Outcome, at: float | None, ghosts: int, size: tuple[int, int]) -> None:
-        self._outcome = outcome
+    def __init__(
+        self, outcome: Any, at: float | None, ghosts: int, size: tuple[int, int], again: tuple[Any, ...] | None = None
+    ) -> None:
+        self._outcome: Outcome = outcome
         self._asked = (at, ghosts, size)
+        self._again = again
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Picture, (remembered(self._outcome, self._again), *self._asked, self._again)
 
     def to_svg(self) -> str:
         """The picture as SVG.

@@ -1012,7 +1012,7 @@ class System:
         wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers, all=all)
         with _Progress(progress) as tell:
             found = self._native.stability(wanted, tell)
-        result = Linearization(self, found, found.equations())
+        result = Linearization(self, found, wanted)
         if save is not None:
             result.save(save)
         return result
@@ -1038,9 +1038,10 @@ class System:
         Stability
             Eigenvalues; over a range its regions and critical values.
         """
+        wanted = _wanted(about=about, over=over, at=at)
         with _Progress(progress) as tell:
-            found = self._native.stability(_wanted(about=about, over=over, at=at), tell)
-        return Stability(self, found, found.ranges())
+            found = self._native.stability(wanted, tell)
+        return Stability(self, found, wanted)
 
     def stability_map(
         self, over: str, *, about: str | None = None, at: str | None = None, progress: bool = False
@@ -1220,7 +1221,7 @@ class System:
         """
         from .exported import jax_library
 
-        return self._exported(jax_library(), formulation)
+        return self._exported(jax_library, formulation)
 
     def to_casadi(self, formulation: str | None = None) -> Exported:
         """The equations of motion as an expression of CasADi, ``rhs(t, y, p)`` for symbols y and p: for optimal control.
@@ -1237,7 +1238,7 @@ class System:
         """
         from .exported import casadi_library
 
-        return self._exported(casadi_library(), formulation)
+        return self._exported(casadi_library, formulation)
 
     def to_opty(self) -> Residuals:
         """Equations of the first order that vanish along the motion, in SymPy, with states and parameters: what opty's ``Problem`` takes.
@@ -1250,7 +1251,7 @@ class System:
 
         return Residuals(self)
 
-    def _exported(self, library: Any, formulation: str | None) -> Exported:
+    def _exported(self, library: Callable[[], Any], formulation: str | None) -> Exported:
         from .exported import Exported, names_of, regular_form
 
         name, source = regular_form(self._native) if formulation is None else (formulation, self._native.derive([formulation], False, "python")[0])

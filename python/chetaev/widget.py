@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import anywidget
 import traitlets
 
+from .asked import number
 from .errors import ChetaevError
 
 if TYPE_CHECKING:
@@ -53,6 +55,17 @@ export default { render };
 """
 
 
+def _ends(name: str, given: Any) -> list[float]:
+    """The ends of a slider, the lower one first."""
+    try:
+        low, high = (number(name, own) for own in given)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: the two ends of a slider are needed, not {given!r}") from None
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise ValueError(f"{name}: a slider goes from a number to a larger one, and not from {low:g} to {high:g}")
+    return [low, high]
+
+
 class Widget(anywidget.AnyWidget):
     """A picture of the motion with sliders, made by :meth:`chetaev.System.widget`.
 
@@ -80,7 +93,7 @@ class Widget(anywidget.AnyWidget):
         unknown = [name for name in ranges if name not in known]
         if unknown:
             raise ValueError(f"`{unknown[0]}` is no parameter; there are {', '.join(known)}")
-        within = {name: [float(low), float(high)] for name, (low, high) in ranges.items()}
+        within = {name: _ends(name, own) for name, own in ranges.items()}
         super().__init__(ranges=within, values={name: known[name] for name in within}, span=[0.0, 0.0])
         self._compute(True)
         self.observe(lambda _: self._compute(False), "values")
@@ -102,7 +115,9 @@ class Widget(anywidget.AnyWidget):
 
     def _draw(self) -> None:
         width, height = self._size
-        self.picture = self.motion.picture(at=self.t, ghosts=4, width=width, height=height).to_svg()
+        # A slider may still stand where an earlier motion ended.
+        first, last = sorted(self.span)
+        self.picture = self.motion.picture(at=min(max(self.t, first), last), ghosts=4, width=width, height=height).to_svg()
 
     def render_static(self) -> str:
         """The present picture with its values as HTML, which exported notebooks keep."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pickle
 import threading
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -188,3 +190,41 @@ def test_functions_pickle_and_run_side_by_side(skate: System) -> None:
     for thread in threads:
         thread.join()
     assert wrong == []
+
+
+@pytest.mark.parametrize(
+    ("t", "y", "said"),
+    [
+        (None, np.zeros(6), "NoneType"),
+        ("1", np.zeros(6), "states are numbers"),
+        (0.0, [None] * 6, "NoneType"),
+        (0.0, ["0"] * 6, "states are numbers"),
+        (0.0, np.zeros(6, "M8[s]"), "states are numbers"),
+        (0.0, np.zeros(6, [("a", "f8")]), "states are numbers"),
+        (np.zeros(4), np.zeros((5, 6)), r"one for each state: its shape is \(4,\)"),
+        (np.zeros(4), np.zeros(6), r"one for each state: its shape is \(4,\)"),
+    ],
+)
+def test_what_is_no_number_is_refused(skate: System, t: Any, y: Any, said: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=said):
+        skate.compile().rhs(t, y)
+
+
+def test_objects_that_are_numbers_are_taken(skate: System) -> None:
+    f, y = skate.compile(), admissible(3)
+    objects = np.array([[Fraction(own) for own in row] for row in y], dtype=object)
+    np.testing.assert_array_equal(f.rhs(0, objects), f.rhs(0, y))
+
+
+def test_why_values_cannot_be_written_is_said(skate: System) -> None:
+    f, y = skate.compile(), admissible(5)
+    locked = np.zeros((5, 6))
+    locked.flags.writeable = False
+    for out, said in (
+        (y, "shares memory with y"), (locked, "read-only"), (np.zeros((5, 12))[:, ::2], "no contiguous array"), (np.zeros((4, 6)), "of shape"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            f.rhs(0, y, out)
+    one = y[0].copy()
+    with pytest.raises(ValueError, match="shares memory with y"):
+        f.rhs(0, one, one)

@@ -113,3 +113,8 @@ def test_mistakes_are_raised(gallery: Path) -> None:
     refuted = Functional.from_text(STRING.replace("= T u,xx", "= -T u,xx")).study()
     assert refuted["functional.euler#string"].verdict == "refuted"
     assert Functional.from_text(STRING).check().ok
+
+
+def test_a_system_that_is_a_functional_says_where_it_belongs() -> None:
+    with pytest.raises(ModelError, match=r"`chetaev.Functional` reads functionals"):
+        System.from_text(STRING)

@@ -12,6 +12,7 @@ import sys
 import textwrap
 import time
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -181,6 +182,13 @@ def test_sliders_compute_the_motion_anew(sleigh: System) -> None:
     assert live.said
     with pytest.raises(ValueError, match="`b` is no parameter"):
         sleigh.widget(b=(0, 1))
+    ends: list[tuple[Any, str]] = [((1, 0), "to a larger one"), ((0, float("inf")), "to a larger one"), (1, "two ends"), (("x", 1), "two ends")]
+    for wrong, said in ends:
+        with pytest.raises((TypeError, ValueError), match=said):
+            sleigh.widget(a=wrong)
+    live.values = {"a": 0.3}
+    live.t = 99
+    assert live.picture == sleigh.with_values(a=0.3).simulate(t_end=3).picture(ghosts=4, width=720, height=405).to_svg()
 
 
 def test_a_motion_is_there_by_name_and_by_axis(sleigh: System) -> None:
@@ -211,6 +219,25 @@ def test_results_pickle(sleigh: System) -> None:
     assert other.to_dict() == study.to_dict() and other.ok == study.ok
     assert other.trajectory is not None and study.trajectory is not None
     np.testing.assert_array_equal(other.trajectory["x"], study.trajectory["x"])
+
+
+def test_pictures_linear_equations_and_functions_pickle(sleigh: System) -> None:
+    def again(own: Any) -> Any:
+        return pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(own))))
+
+    picture = sleigh.simulate(t_end=1).picture(ghosts=2)
+    assert again(picture).to_svg() == picture.to_svg()
+    for linear in (sleigh.linearize(speeds="x' cos(phi) + y' sin(phi),phi'"), sleigh.stability(), sleigh.stability(over="ahead=-2:2")):
+        assert type(again(linear)) is type(linear)
+        assert again(linear).to_dict() == linear.to_dict() and str(again(linear)) == str(linear)
+        assert again(linear).to_latex() == linear.to_latex()
+    motion = sleigh.simulate(t_end=1)
+    assert repr(again(motion.sol)) == repr(motion.sol) == "<sol(t): y = (x, y, phi, x', y', phi'), t from 0 to 1>"
+    pytest.importorskip("casadi")
+    exported = sleigh.to_casadi()
+    rates = again(exported).rhs(0.0, exported.start, exported.p)
+    np.testing.assert_array_equal(np.array(rates), np.array(exported.rhs(0.0, exported.start, exported.p)))
+    assert again(exported).parameters == exported.parameters and again(exported).formulation == exported.formulation
 
 
 def test_membership_is_by_name(sleigh: System) -> None:

@@ -15,8 +15,8 @@ use chetaev::study::free::following;
 use chetaev::symbolic::{Expr, Graph};
 use numpy::ndarray::{Axis, Slice};
 use numpy::{
-    PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArray,
-    PyUntypedArrayMethods,
+    BorrowError, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -447,7 +447,13 @@ impl Function {
         let t = match t.getattr("ndim")?.extract::<usize>()? {
             0 => t.call_method1("reshape", (1,))?,
             _ => {
-                let wide = numpy.call_method1("broadcast_to", (t, shape.clone()))?;
+                let given = t.getattr("shape")?.repr()?;
+                let wide = numpy.call_method1("broadcast_to", (t, shape.clone()));
+                let wide = wide.map_err(|_| {
+                    PyValueError::new_err(format!(
+                        "t is one time, or one for each state: its shape is {given}, and that of the states {shape:?}"
+                    ))
+                })?;
                 wide.call_method1("reshape", (count,))?
             }
         };
@@ -459,20 +465,23 @@ impl Function {
                 let out = out
                     .cast::<PyArrayDyn<f64>>()
                     .map_err(|_| PyTypeError::new_err("out is an array of doubles (float64)"))?;
-                if out.shape() != whole || !out.is_c_contiguous() {
+                if out.shape() != whole {
                     return Err(PyValueError::new_err(format!(
-                        "out is a contiguous array of shape {whole:?}, not {:?}",
+                        "out is an array of shape {whole:?}, not {:?}",
                         out.shape()
                     )));
+                }
+                if !out.is_c_contiguous() {
+                    return Err(PyValueError::new_err(
+                        "out is no contiguous array: its numbers do not lie one after the other",
+                    ));
                 }
                 out.clone()
             }
         };
         let y: PyReadonlyArray2<'_, f64> = rows.extract()?;
         let t: PyReadonlyArray1<'_, f64> = t.extract()?;
-        let mut write = target
-            .try_readwrite()
-            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        let mut write = target.try_readwrite().map_err(|why| not_written(&why))?;
         let values = write
             .as_slice_mut()
             .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
@@ -514,12 +523,42 @@ fn doubles<'py>(
         )));
     }
     let given = numpy.call_method1("asarray", (value,))?;
-    if given.getattr("dtype")?.getattr("kind")?.eq("c")? {
-        return Err(PyTypeError::new_err(format!(
+    let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
+    match kind.as_str() {
+        "b" | "i" | "u" | "f" => numpy.call_method1("require", (given, "f8", "A")),
+        "c" => Err(PyTypeError::new_err(format!(
             "{name} is complex, and states are real: derivatives by the state are exact in `jac`, and need no complex step"
-        )));
+        ))),
+        "O" => floats(numpy, &given),
+        _ => Err(PyTypeError::new_err(format!(
+            "{name} has elements of the kind {}, and states are numbers",
+            given.getattr("dtype")?.str()?
+        ))),
     }
-    numpy.call_method1("require", (given, "f8", "A"))
+}
+
+/// An array of objects, each of which is a number: `None` is none.
+fn floats<'py>(
+    numpy: &Bound<'py, PyModule>,
+    given: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let flat: Vec<f64> = given.call_method0("ravel")?.extract()?;
+    let shape = given.getattr("shape")?;
+    numpy
+        .call_method1("asarray", (flat, "f8"))?
+        .call_method1("reshape", (shape,))
+}
+
+/// Why values cannot be written into an array.
+fn not_written(why: &BorrowError) -> PyErr {
+    let said = match why {
+        BorrowError::AlreadyBorrowed => {
+            "out shares memory with y, or is written by another thread: values would be written over what they are computed from"
+        }
+        BorrowError::NotWriteable => "out is read-only",
+        _ => "out cannot be written",
+    };
+    PyValueError::new_err(said)
 }
 
 /// Whether an array is one of NumPy itself, no subclass, and its doubles lie where doubles may lie.
@@ -568,9 +607,7 @@ impl Function {
             }),
             Some(Ok(target)) if target.len() == self.program.size() => {
                 self.one(time, &y, |values| {
-                    let mut write = target
-                        .try_readwrite()
-                        .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+                    let mut write = target.try_readwrite().map_err(|why| not_written(&why))?;
                     let own = write
                         .as_slice_mut()
                         .map_err(|problem| PyValueError::new_err(problem.to_string()))?;

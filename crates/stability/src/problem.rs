@@ -12,7 +12,7 @@ pub enum LinearizationError {
         order: u32,
     },
     /// A mass changes.
-    #[error("a mass of this system changes along the motion, so that no motion is steady")]
+    #[error("a mass of this system changes along the motion, so that no motion is steady; linear equations, orbits and sensitivities are those of masses that stay")]
     MassesMove,
     /// The time occurs.
     #[error("the equations contain the time explicitly, so that no motion is steady; `chetaev linearize --along` takes the motion from the initial state")]
