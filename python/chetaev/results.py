@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import errno
 import functools
 import html
 import json
@@ -49,6 +50,19 @@ def write(path: str | os.PathLike[str], content: bytes) -> None:
         with contextlib.suppress(OSError):
             os.remove(partial)
         raise
+
+
+def writable(folder: str | os.PathLike[str] | None) -> None:
+    """Whether a folder can be written into or made, or Python's own exception that says why not: before work is done that would be lost."""
+    if folder is None:
+        return
+    path = os.path.abspath(os.fspath(folder))
+    while not os.path.exists(path):
+        path = os.path.dirname(path)
+    if not os.path.isdir(path):
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), path)
+    if not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
 
 
 class Shown:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import notebook
 from .asked import whole
 from .errors import Interrupted
-from .results import Result, write
+from .results import Result, writable, write
 from .texts import exact
 
 if TYPE_CHECKING:
@@ -293,6 +293,7 @@ def ensemble(
     if executor is None and out is None:
         return system.sweep(rows=columns, samples=samples, threads=threads, progress=progress, **motion)
     chunk = whole("chunk", chunk, 1)
+    writable(out)
     count = len(next(iter(columns.values())))
     tasks = [
         _Task(system, {name: own[first : first + chunk] for name, own in columns.items()}, samples, motion, out, executor is None, threads)

@@ -29,6 +29,7 @@ from .results import (
     Steps,
     Study,
     Trajectory,
+    writable,
 )
 from .texts import exact, toml
 
@@ -632,6 +633,7 @@ class System:
             claims=words, budget=budget, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
+        writable(out)
         with _Progress(progress) as tell:
             outcome = self._native.study(asked, tell)
         return _finished(Study(outcome, outcome.summary(), (self, "study", asked)), outcome, out)
@@ -708,6 +710,7 @@ class System:
             t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
+        writable(out)
         with _Progress(progress) as tell:
             outcome = self._native.simulate(asked, tell)
         return _finished(Trajectory(outcome, outcome.summary(), self, asked), outcome, out)
@@ -848,6 +851,7 @@ class System:
             budget=budget, kappa=kappa, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
+        writable(out)
         with _Progress(progress) as tell:
             outcome = self._native.principles(asked, compare, tell)
         return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out)
@@ -934,6 +938,7 @@ class System:
             "vary": ranges(vary), "initial": ranges(initial), "rows": table_text(rows), "zip": zip, "count": count, "seed": seed,
             "samples": samples,
         }
+        writable(out)
         with _Progress(progress) as tell:
             prepared = self._native.sweep(asked, varied, tell)
             found, interrupted = computed(prepared, (0, prepared.count), threads, stop_on_failure, tell)

@@ -430,3 +430,19 @@ def test_texts_are_shown_in_parts(sleigh: System) -> None:
             assert plain == said if name != "other" else plain == said.replace("refuted:", "refuted"), name
     assert sleigh.steps().to_latex() == sleigh.steps(notation="latex").to_latex() == str(sleigh.steps(notation="latex"))
     assert "<summary>the document</summary>" in sleigh.steps(notation="latex")._html()
+
+
+def test_where_nothing_can_be_written_nothing_is_computed(sleigh: System, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    out = tmp_path / "file" / "below"
+    began = time.perf_counter()
+    for work in (
+        lambda: sleigh.simulate(t_end=1e6, out=out),
+        lambda: sleigh.study(t_end=1e6, out=out),
+        lambda: sleigh.principles(compare=True, t_end=1e6, out=out),
+        lambda: sleigh.sweep(vary={"a": "0.1:0.5:100"}, t_end=1e6, out=out),
+        lambda: chetaev.ensemble(sleigh, parameters={"a": np.linspace(0.1, 0.5, 100)}, t_end=1e6, out=out),
+    ):
+        with pytest.raises(NotADirectoryError, match="file"):
+            work()
+    assert time.perf_counter() - began < 5
