@@ -1129,7 +1129,7 @@ class Trajectory(Result):
         if at is not None and not first <= number("at", at) <= last:
             raise ValueError(f"at: the motion is known from t = {first:g} to {last:g}, and not at {at}")
         size = whole("width", width, 1, _SIDE), whole("height", height, 1, _SIDE)
-        return Picture(self._outcome, at, whole("ghosts", ghosts, 0, 2**32 - 1), size, self._again)
+        return Picture(self._outcome, at, whole("ghosts", ghosts, 0, 1000), size, self._again)
 
     def animate(self, *, seconds: float | None = None, width: int = 640, height: int = 360) -> Film:
         """The moving drawing, of so many seconds.

@@ -237,7 +237,7 @@ class System:
             The Lagrangian L(q, q', t), or an object that states a whole system.
         coordinates : sequence of functions of the time
             As ``dynamicsymbols`` makes them, of one time; needed with a Lagrangian, and with it only.
-        constraints : sequence or mapping from names to these
+        constraints : expression, equation, sequence or mapping from names to these
             Expressions that vanish, or equations; with a Lagrangian only.
         forces : mapping from coordinates, or their names, to expressions
             Generalized forces that are not in the Lagrangian; with a Lagrangian only.
@@ -247,7 +247,8 @@ class System:
             States beside it the equations that the object has derived; ``study(claims="equations.stated")`` decides whether they are right. A
             Lagrangian has derived none.
         **sections
-            As for :class:`System`: ``initial``, ``simulation``, ``controls``, …; keys may be SymPy's too, ``initial={x.diff(t): 1}``.
+            As for :class:`System`: ``initial``, ``simulation``, ``controls``, …; keys may be SymPy's too, ``initial={x.diff(t): 1}``. Laws of some
+            controls leave the others, and assumptions are added to the signs that SymPy knows of symbols.
         name : str
             A name.
 
@@ -258,14 +259,15 @@ class System:
         Raises
         ------
         TypeError
-            For what is said beside an object that states it itself.
+            For what is said beside an object that states it itself, and for texts in the place of expressions.
         ValueError
             Where symbols of one name differ, or a function of the time is neither a coordinate nor a control.
 
         Notes
         -----
         ``derive().to_sympy()`` and ``sympify`` give the symbols, the functions and the time of the statement back. Names that a model cannot
-        declare are changed, and a warning says to what.
+        declare are changed, and a warning says to what. Potential energies of bodies are stated where a ``System`` has formed its equations by
+        ``LagrangesMethod``; Kane's method leaves them out, and a warning says of which.
 
         Examples
         --------

@@ -374,3 +374,26 @@ def test_equations_that_were_not_formed_are_asked_for() -> None:
     x = me.dynamicsymbols("x")
     with pytest.raises(ValueError, match="form_lagranges_equations"):
         System.from_sympy(me.LagrangesMethod(x.diff() ** 2 / 2, [x]), derived=True)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_random_system_has_the_accelerations_and_multipliers_that_sympy_solves_for(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    q = me.dynamicsymbols("q1:4")
+    v = [own.diff() for own in q]
+    a = [sp.Rational(int(own), 7) for own in draw.integers(-9, 9, 12)]
+    mass = 3 * sp.eye(3) + sp.Matrix(3, 3, lambda i, j: a[(i + j) % 12] * sp.sin(q[i] + q[j]) / 6)
+    kinetic = (sp.Matrix(v).T * mass * sp.Matrix(v))[0] / 2
+    L = kinetic - a[3] * sp.cos(q[0]) - a[4] * q[1] ** 2 * q[2] / 3 + a[5] * v[0] * q[1] * sp.cos(t)
+    constraint = v[2] - a[6] * q[0] * v[1] - a[7] * sp.sin(q[1]) * v[0] - a[8] / 3
+    method = me.LagrangesMethod(L, list(q), nonhol_coneqs=[constraint])
+    method.form_lagranges_equations()
+    state = draw.uniform(-1, 1, 6)
+    places, rates = dict(zip(q, state[:3])), dict(zip(v[:2], state[3:5]))
+    state[5] = float((v[2] - constraint).subs(rates).subs(places))
+    rates[v[2]] = state[5]
+    full = [own.subs(rates).subs(places).subs(t, 0.3).evalf() for own in (method.mass_matrix_full, method.forcing_full)]
+    expected = np.linalg.solve(*(np.array(own.tolist(), dtype=float) for own in full)).ravel()
+    f = System.from_sympy(method).compile()
+    np.testing.assert_allclose(f.rhs(0.3, state), expected[:6], atol=1e-13)
+    np.testing.assert_allclose(f.reactions(0.3, state), expected[6:], atol=1e-13)
