@@ -130,6 +130,12 @@ pub enum CharacteristicsError {
         /// What they demand, as equations.
         demands: String,
     },
+    /// Constraints whose gradients are dependent wherever they hold.
+    #[error("{sentence}")]
+    Multiplicity {
+        /// What holds, with simpler constraints.
+        sentence: String,
+    },
     /// The wrong number of parameters.
     #[error("{found} parameters of the characteristics are stated, and the system has {expected} degrees of freedom in the derivatives they parametrize")]
     WrongNumber {

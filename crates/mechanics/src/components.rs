@@ -9,6 +9,7 @@ mod together;
 
 pub use self::distinct::{distinct, of_start};
 
+pub(crate) use self::real_factors::zero_set;
 use self::real_factors::{real_factors, RealFactors};
 use self::together::{covered_by_choice, on_affine};
 use crate::constraint::{Constraint, ConstraintKind};

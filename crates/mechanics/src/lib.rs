@@ -6,7 +6,8 @@
 //! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`], and their derivation in [`steps`];
 //! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);
 //! - the set where all constraints hold: [`positions`] (what finite ones determine);
-//! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`components`] (they are products);
+//! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`multiplicity`] (their gradients are dependent
+//!   wherever they hold), [`components`] (they are products);
 //! - for computing and reading: [`regular`] (quasi-velocities without singular places), [`speeds`] (those a person would choose),
 //!   [`reduced_equations`], [`choice`];
 //! - [`sample`]: states for heuristic choices, evidence only where a verdict says `numerical`.
@@ -28,6 +29,7 @@ mod from_model;
 pub mod linear;
 pub mod mass;
 pub mod memo;
+pub mod multiplicity;
 mod names;
 pub mod order;
 pub mod particles;

@@ -53,6 +53,14 @@ pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Opti
         .find_map(|steps| drawn(system, terms, seed, steps))
 }
 
+/// Whether a state is found at which all constraints hold, those of positions themselves and not only their derivatives.
+pub fn is_regular(system: &System, terms: &MotionTerms) -> bool {
+    let Some(mut point) = admissible_point(system, terms, SEED) else {
+        return false;
+    };
+    Finite::of(system, terms).is_none_or(|set| set.reach(system, &mut point))
+}
+
 /// Newton steps that nearly every search needs.
 const STEPS: usize = 60;
 

@@ -12,10 +12,11 @@ use crate::steady_value::{fraction, Generators, Unknown};
 pub use crate::steady_value::{SteadySetError, Value};
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_symbolic::common_zeros::{angles, needed_relations};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
-use chetaev_symbolic::{Expr, Graph, Node, Symbol};
+use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// A number for all symbols, to see whether a function has values.
 const SOMEWHERE: f64 = 0.377;
@@ -87,8 +88,8 @@ pub fn steady_set(
     let numerators: Vec<Polynomial> = vanishing.map(|f| f.numerator().clone()).collect();
     let count = numerators.len();
     let denominators: Vec<Polynomial> = forms.iter().map(|f| f.denominator().clone()).collect();
-    let mut polynomials = [numerators, denominators.clone()].concat();
-    let relations = needed(&field, &mut polynomials)?;
+    let polynomials = [numerators, denominators.clone()].concat();
+    let relations = needed_relations(&field, &polynomials)?;
     let unknowns = unknowns(&field, &equations, &polynomials)?;
     let order = order(&field, &unknowns, &polynomials);
     let meter = field.meter();
@@ -306,42 +307,6 @@ fn moving(g: &Graph, es: Vec<Expr>) -> Vec<Expr> {
     es.into_iter()
         .filter(|&e| g.as_number(e).is_none())
         .collect()
-}
-
-/// The symbols that stand inside of functions: their sines and cosines are unknowns.
-fn angles(g: &Graph, es: &[Expr], symbols: &[Symbol]) -> Vec<Expr> {
-    let functions: Vec<Expr> = g
-        .reachable(es)
-        .into_iter()
-        .filter(|&e| matches!(g.node(e), Node::Apply { .. }))
-        .collect();
-    let occurring = symbols
-        .iter()
-        .filter(|&&s| g.any_contains_any(&functions, &[s]));
-    occurring.map(|&s| g.symbol_expr(s)).collect()
-}
-
-/// The relations of all generators that occur, and of those that occur in these relations; a sine always brings its cosine.
-fn needed(field: &Field<'_>, polynomials: &mut [Polynomial]) -> Result<Vec<Polynomial>, TooLarge> {
-    let all = field.relations()?;
-    let mut kept: Vec<Polynomial> = Vec::new();
-    loop {
-        let occurs = |generator: usize| {
-            let mut own = polynomials.iter().chain(&kept);
-            own.any(|p| p.degree_in(generator) > 0)
-        };
-        let partner = |generator: usize| match field.generators()[generator].kind {
-            Kind::Sine { partner } => occurs(partner),
-            _ => false,
-        };
-        let next = all.iter().find(|(generator, p)| {
-            !kept.contains(p) && (occurs(*generator) || partner(*generator))
-        });
-        match next {
-            Some((_, p)) => kept.push(p.clone()),
-            None => return Ok(kept),
-        }
-    }
 }
 
 /// The unknowns with the generators that stand for them.

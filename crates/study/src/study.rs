@@ -24,12 +24,14 @@ use chetaev_geometry::noether::found::{found, is_function_of};
 use chetaev_geometry::noether::search::Integral;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Progress;
-use chetaev_mechanics::characteristics::Selection;
+use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
+use chetaev_mechanics::claims::model::ConstraintsIndependent;
 use chetaev_mechanics::claims::strata::{Grounds, Strata};
 use chetaev_mechanics::components::covered;
 use chetaev_mechanics::formulations::{Maggi, Routh};
+use chetaev_mechanics::multiplicity::Multiplicity;
 use chetaev_mechanics::sample::rank_near;
 use chetaev_mechanics::MotionTerms;
 use chetaev_mechanics::{
@@ -130,6 +132,7 @@ impl Outcome {
 pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
     let options = StudyOptions::default();
     let (system, prepared, start) = prepare(model, &options, hooks)?;
+    refuse_multiplicity(&system, &prepared)?;
     if let Some(detail) = wrong_characteristics(&system, &prepared) {
         return Err(StudyError::WrongCharacteristics { detail });
     }
@@ -165,8 +168,51 @@ pub(crate) fn prepare(
     check_initial_data(model, &system)?;
     (hooks.progress)("deriving", None);
     let terms = MotionTerms::new(&system);
-    let start = start_of_motion(model, &system, &terms, options)?;
-    let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
+    match with_motions(model, &system, &terms, options) {
+        Ok((prepared, start)) => Ok((system, prepared, start)),
+        Err(problem) if is_of_the_constraints(&problem) => {
+            match Multiplicity::find(&system, &terms, &Prover::default()) {
+                Some(own) => {
+                    let why = own.sentence(&system);
+                    Ok((system, Prepared::without_motions(terms, own), Err(why)))
+                }
+                None => Err(problem),
+            }
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+/// Whether a motion cannot begin by the constraints and where they hold.
+fn is_of_the_constraints(problem: &StudyError) -> bool {
+    matches!(
+        problem,
+        StudyError::Initial(_) | StudyError::Characteristics(_) | StudyError::RankDeficient { .. }
+    )
+}
+
+/// A system without motions is refused by what asks for one.
+pub(crate) fn refuse_multiplicity(
+    system: &System,
+    prepared: &Prepared,
+) -> Result<(), CharacteristicsError> {
+    match &prepared.multiplicity {
+        None => Ok(()),
+        Some(own) => Err(CharacteristicsError::Multiplicity {
+            sentence: own.sentence(system),
+        }),
+    }
+}
+
+/// Independent constraints, and the start of the motion or why there is none.
+fn with_motions(
+    model: &Model,
+    system: &System,
+    terms: &MotionTerms,
+    options: &StudyOptions,
+) -> Result<(Prepared, Result<Start, String>), StudyError> {
+    let start = start_of_motion(model, system, terms, options)?;
+    let selection = match chetaev_mechanics::characteristics::select(system, terms) {
         Ok(selection) => selection,
         Err(error) => match &start {
             Ok(n) if terms.order == 1 => Selection {
@@ -176,23 +222,27 @@ pub(crate) fn prepare(
             _ => return Err(error.into()),
         },
     };
-    let selection = on_component_of(&system, &terms, start.as_ref().ok(), selection);
+    let selection = on_component_of(system, terms, start.as_ref().ok(), selection);
     if let (Ok(start), 1) = (&start, terms.order) {
         check_rank(start, selection.rows.len())?;
     }
-    let prepared = Prepared { terms, selection };
-    prepared.left_out(&system)?;
+    let prepared = Prepared {
+        terms: terms.clone(),
+        selection,
+        multiplicity: None,
+    };
+    prepared.left_out(system)?;
     let mut start = start;
     if let (Ok(found), true) = (&mut start, prepared.terms.order > 1) {
         match add_jets(
             model,
-            &system,
+            system,
             (&prepared.terms, &prepared.selection),
             found,
             options,
         ) {
             Err(StudyError::Jets(problem)) => {
-                let problem = match undetermined(&system, &prepared) {
+                let problem = match undetermined(system, &prepared) {
                     Some(detail) => StudyError::Undetermined { detail },
                     None => StudyError::Jets(problem),
                 };
@@ -204,7 +254,7 @@ pub(crate) fn prepare(
             outcome => outcome?,
         }
     }
-    Ok((system, prepared, start))
+    Ok((prepared, start))
 }
 
 /// The selection on the component of the constraint set on which the motion begins, where the rank there is another than that of the
@@ -284,6 +334,9 @@ pub fn study_telling(
     let known = registry();
     let began = interruptible(hooks, |hooks| {
         let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
+        if !options.claims.wants_claim(&ConstraintsIndependent) {
+            refuse_multiplicity(&system, &prepared)?;
+        }
         let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
         if let Some(detail) = wrong_characteristics(&system, &prepared) {
             notices.push(format!(
@@ -352,6 +405,7 @@ pub fn study_telling(
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
         _ if is_interrupted(hooks) => Outcome::Stopped,
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
+        Outcome::Done if prepared.multiplicity.is_some() && options.motion => Outcome::Unmet,
         outcome => outcome,
     };
     if is_interrupted(hooks) {

@@ -120,7 +120,7 @@ pub enum NotWritten {
 /// # Errors
 /// [`CharacteristicsError`] where no admissible state is found.
 pub fn prepared(system: &System) -> Result<(Prepared, Vec<String>), CharacteristicsError> {
-    let prepared = Prepared::new(system)?;
+    let prepared = Prepared::of_motions(system)?;
     let mut notes = Vec::new();
     if let Some(left_out) = prepared.left_out(system)? {
         notes.push(format!(

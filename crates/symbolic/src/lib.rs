@@ -6,11 +6,13 @@
 //! - [`graph`], [`construct`], [`mod@functions`], [`linear`]: the hash-consed graph and its canonical constructors;
 //! - [`calculus`], [`substitute`], [`evaluate`]: derivatives, replacement, values in double precision;
 //! - [`number`], [`polynomial`], [`matrix`], [`factors`], [`quadratic_factors`]: exact arithmetic, normal forms, factorization;
+//! - [`common_zeros`]: what vanishes together, as a union of sets;
 //! - [`zero`]: whether expressions vanish, on their own or on constraints: exact forms, modular proofs, refutation by balls;
 //! - [`mod@simplify`], [`mod@print`]: formulas for reading; no proof rests on a simplification;
 //! - [`verdict`]: what is known about a statement.
 
 pub mod calculus;
+pub mod common_zeros;
 pub mod construct;
 mod digest;
 pub mod evaluate;

@@ -25,8 +25,10 @@ use crate::card::Card;
 use crate::characteristics::{self, Selection};
 use crate::components;
 use crate::formulations::DeriveError;
+use crate::multiplicity::Multiplicity;
 use crate::prover::{Noticed, Prover};
 use crate::redundancy::LeftOut;
+use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words;
@@ -545,6 +547,16 @@ impl<'a> Context<'a> {
         finding
     }
 
+    /// Why nothing is said of a system whose constraints hold with multiplicity but this.
+    fn no_motion(&self, claim: &dyn Claim) -> Option<Verdict> {
+        let own = model::ConstraintsIndependent.id();
+        let multiplicity = self.extension::<Multiplicity>()?;
+        (claim.id() != own).then(|| {
+            let sentence = multiplicity.sentence(self.system);
+            Verdict::not_applicable(own, format!("`{own}` is refuted: {sentence}"))
+        })
+    }
+
     fn constraint_beyond(&self, order: u32) -> Option<Verdict> {
         let constraint = self.system.constraints.iter().find(|c| c.order > order)?;
         Some(Verdict::not_applicable(
@@ -559,7 +571,8 @@ impl<'a> Context<'a> {
     /// Why a claim (without subject: of the system) cannot be decided at all: a constraint of too high an order, or the first
     /// hypothesis that fails.
     pub fn obstacle(&self, claim: &dyn Claim, subject: Option<&str>) -> Option<Verdict> {
-        self.constraint_beyond(claim.highest_order(subject))
+        self.no_motion(claim)
+            .or_else(|| self.constraint_beyond(claim.highest_order(subject)))
             .or_else(|| self.failed_hypothesis(&claim.requires(subject)))
     }
 
@@ -606,6 +619,8 @@ pub struct Prepared {
     pub terms: MotionTerms,
     /// The selection.
     pub selection: Selection,
+    /// That the constraints hold with multiplicity, where that was asked and is so: the terms then describe no motion.
+    pub multiplicity: Option<Multiplicity>,
 }
 
 impl Prepared {
@@ -616,7 +631,43 @@ impl Prepared {
     pub fn new(system: &System) -> Result<Prepared, characteristics::CharacteristicsError> {
         let terms = MotionTerms::new(system);
         let selection = characteristics::select(system, &terms)?;
-        Ok(Prepared { terms, selection })
+        Ok(Prepared {
+            terms,
+            selection,
+            multiplicity: None,
+        })
+    }
+
+    /// As [`new`](Prepared::new), for systems that have motions.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError::Multiplicity`](characteristics::CharacteristicsError) where the constraints hold with multiplicity, and when no
+    /// admissible state exists.
+    pub fn of_motions(system: &System) -> Result<Prepared, characteristics::CharacteristicsError> {
+        let prepared = Prepared::new(system);
+        let is_regular = |own: &Prepared| sample::is_regular(system, &own.terms);
+        if prepared.as_ref().is_ok_and(is_regular) {
+            return prepared;
+        }
+        let terms = MotionTerms::new(system);
+        match Multiplicity::find(system, &terms, &Prover::default()) {
+            Some(own) => Err(characteristics::CharacteristicsError::Multiplicity {
+                sentence: own.sentence(system),
+            }),
+            None => prepared,
+        }
+    }
+
+    /// A system whose constraints hold with multiplicity: none of them is chosen.
+    pub fn without_motions(terms: MotionTerms, multiplicity: Multiplicity) -> Prepared {
+        Prepared {
+            terms,
+            selection: Selection {
+                rows: Vec::new(),
+                dependent: Vec::new(),
+            },
+            multiplicity: Some(multiplicity),
+        }
     }
 
     /// The constraints that are left out because they follow from the others.

@@ -6,6 +6,7 @@ use crate::claims::formulation::{basis, manifold};
 use crate::constraint::Constraint;
 use crate::frame::{Frame, FrameOrigin};
 use crate::mass;
+use crate::multiplicity::Multiplicity;
 use crate::order::determined::with_multipliers;
 use crate::redundancy::LeftOut;
 use crate::sample;
@@ -103,8 +104,9 @@ impl Claim for ConstraintsIndependent {
     fn explanation(&self) -> &'static str {
         "The Jacobian ∂f/∂v of the constraints by the velocities has rank r, the number of constraints, at almost every \
          state that satisfies them. If not, the verdict names the constraints that follow from the others (they are left \
-         out, the motion does not change) or contradict them, or a constraint whose gradient vanishes wherever it holds, \
-         such as the square of another one. Of constraints of order m it is the Jacobian by the derivatives of order m."
+         out, the motion does not change) or contradict them, or that hold with multiplicity: where two spheres touch, or a \
+         sum of squares vanishes, the gradients are dependent wherever the constraints hold. Multipliers then determine \
+         no motion, and simpler constraints with the same states are named. Of constraints of order m it is the Jacobian by the derivatives of order m."
     }
 
     fn highest_order(&self, _: Option<&str>) -> u32 {
@@ -114,6 +116,9 @@ impl Claim for ConstraintsIndependent {
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
+        }
+        if let Some(multiplicity) = cx.extension::<Multiplicity>() {
+            return multiplicity.verdict(cx.system).into();
         }
         let left_out = LeftOut::find(cx.system, cx.terms, cx.selection, &cx.prover);
         let verdict = match left_out {

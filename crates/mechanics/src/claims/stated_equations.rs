@@ -7,7 +7,9 @@
 use super::formulation::{derive, REFERENCE};
 use super::on_set::{self, constraint_set, vanish, State};
 use super::{Claim, Context, Finding, Formula, Group};
+use crate::components::zero_set;
 use crate::equations::Equations;
+use crate::prover::assumptions;
 use crate::system::{StatedEquations, System};
 use crate::words::counted;
 use crate::words::number;
@@ -74,8 +76,10 @@ impl Claim for Stated {
 struct Question<'a, 'c> {
     cx: &'a Context<'c>,
     set: &'a StatedEquations,
-    /// Left minus right.
+    /// What vanishes where they hold: left minus right, or simpler functions.
     equations: Vec<Expr>,
+    /// What each is, in words.
+    names: Vec<String>,
     /// Multipliers that occur, with their values on the motion; none where redundant constraints leave them undetermined.
     known: Vec<(Symbol, Expr)>,
     /// Unknowns that are none of the motion.
@@ -96,8 +100,8 @@ impl<'a, 'c> Question<'a, 'c> {
     fn new(cx: &'a Context<'c>, set: &'a StatedEquations, motion: &'a Equations) -> Self {
         let (system, g) = (cx.system, &cx.system.graph);
         let sides = set.equations.iter();
-        let equations: Vec<Expr> = sides.map(|&(_, left, right)| g.sub(left, right)).collect();
-        let occurring = g.symbols_in(&equations);
+        let stated: Vec<Expr> = sides.map(|&(_, left, right)| g.sub(left, right)).collect();
+        let occurring = g.symbols_in(&stated);
         let multiplier = |name: &str| g.intern_symbol(&format!("lambda_{name}"), 0);
         let all = system.constraints.iter().map(|c| multiplier(&c.name));
         let all: Vec<Symbol> = all.filter(|s| occurring.contains(s)).collect();
@@ -117,13 +121,22 @@ impl<'a, 'c> Question<'a, 'c> {
             all.iter()
                 .filter(|s| !known.iter().any(|(own, _)| own == *s)),
         );
+        let accelerations: Vec<Symbol> = system.coordinates.iter().map(|c| c.a_symbol).collect();
+        let unknowns = accelerations.iter().chain(&all).chain(&set.unknowns);
+        let unknowns: Vec<Symbol> = unknowns.copied().collect();
+        let names = set.equations.iter().map(|(name, ..)| name);
+        let (names, equations) = names
+            .zip(stated)
+            .flat_map(|(name, e)| vanishing(system, name, e, &unknowns))
+            .unzip();
         Question {
             cx,
             set,
             equations,
+            names,
             known,
             free,
-            accelerations: system.coordinates.iter().map(|c| c.a_symbol).collect(),
+            accelerations,
             motion,
         }
     }
@@ -171,8 +184,7 @@ impl<'a, 'c> Question<'a, 'c> {
             unknowns.extend(self.known.iter().map(|(s, _)| *s));
         }
         let es = g.substitute_all(&self.equations, &pairs);
-        let names = self.set.equations.iter();
-        let names: Vec<String> = names.map(|(name, ..)| difference_of(name)).collect();
+        let names = self.names.clone();
         let occurring = g.symbols_in(&es);
         unknowns.retain(|u| occurring.contains(u));
         if unknowns.is_empty() {
@@ -257,7 +269,7 @@ impl<'a, 'c> Question<'a, 'c> {
         };
         let (own_least, own_most) = own;
         if all.minimum >= n + own_most {
-            let counted = match self.equations.len() {
+            let counted = match self.set.equations.len() {
                 1 => "equation".to_owned(),
                 many => format!("{many} equations"),
             };
@@ -381,11 +393,7 @@ impl<'a, 'c> Question<'a, 'c> {
     /// The difference of both sides, from the equation of motion with the same accelerations and multipliers where there is one.
     fn short_difference(&self, name: &str, residual: Expr) -> Option<Expr> {
         let g = &self.system().graph;
-        let place = self
-            .set
-            .equations
-            .iter()
-            .position(|(own, ..)| difference_of(own) == name);
+        let place = self.names.iter().position(|own| own == name);
         let term = place.and_then(|k| self.wrong_term(self.equations[k]));
         let short = self.short(residual);
         let forms = term.into_iter().chain(short);
@@ -527,8 +535,26 @@ impl<'a, 'c> Question<'a, 'c> {
 /// Longer formulas are shown, not written in a sentence.
 const WRITTEN: u64 = 80;
 
-fn difference_of(name: &str) -> String {
-    format!("left minus right of equation `{name}`")
+/// What vanishes where an equation holds, with words for it: left minus right where that is linear in the unknowns, or nothing simpler
+/// is known. `E² = 0` is `E = 0`, and the rank of its Jacobian does not count solutions.
+fn vanishing(system: &System, name: &str, e: Expr, unknowns: &[Symbol]) -> Vec<(String, Expr)> {
+    let g = &system.graph;
+    let difference = || vec![(format!("left minus right of equation `{name}`"), e)];
+    if !g.any_contains_any(&g.gradient(e, unknowns), unknowns) {
+        return difference();
+    }
+    match zero_set(g, e, unknowns, &assumptions(system)) {
+        Some(all) => {
+            let what = |own: Expr| {
+                format!(
+                    "{}, which vanishes where equation `{name}` holds,",
+                    g.text(own)
+                )
+            };
+            all.into_iter().map(|own| (what(own), own)).collect()
+        }
+        None => difference(),
+    }
 }
 
 /// What a linear system gives for its first unknowns.

@@ -177,7 +177,11 @@ impl<'a> Strata<'a> {
     ) -> Strata<'a> {
         let make = move |system: &'a System, prepared: &'a Prepared| {
             let (terms, selection) = (&prepared.terms, &prepared.selection);
-            with(Context::new(system, terms, selection, registry, prover()))
+            let cx = Context::new(system, terms, selection, registry, prover());
+            with(match &grounds.written.1.multiplicity {
+                Some(multiplicity) => cx.with(Arc::new(multiplicity.clone())),
+                None => cx,
+            })
         };
         let mut strata = Strata {
             grounds,

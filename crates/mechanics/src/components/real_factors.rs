@@ -3,10 +3,11 @@
 //! `z'³ − y³ x'³` is `(z' − y x')` times a form that vanishes where `z' − y x'` does and nowhere else; `z'/x' − y` is `z' − y x'` where
 //! x' ≠ 0.
 
+use super::innermost;
 use chetaev_symbolic::factors::{coefficients, factored, irreducible_factors};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// What a constraint function vanishes by.
 #[derive(Clone, Debug, Default)]
@@ -117,6 +118,44 @@ fn zeros(g: &Graph, e: Expr, velocities: &[Symbol], known: &Assumptions) -> Opti
             squares,
         })
     })
+}
+
+/// Functions that vanish together exactly where one does, for real values of some symbols, and are simpler: the base of a power, the argument of
+/// an absolute value or of a function that takes its value once, what stands in a sum of squares. `None` where there are none.
+pub(crate) fn zero_set(
+    g: &Graph,
+    f: Expr,
+    symbols: &[Symbol],
+    known: &Assumptions,
+) -> Option<Vec<Expr>> {
+    let inner = match g.node(innermost(g, f)) {
+        Node::Apply {
+            function: Function::Abs,
+            arguments,
+        } => arguments[0],
+        _ => innermost(g, f),
+    };
+    let all = irreducible_factors(g, inner, symbols)?;
+    let may_vanish = |e: Expr| !known_sign(g, e, known).is_nonzero();
+    let own: Vec<Expr> = all.iter().map(|&(e, _)| e).collect();
+    let own: Vec<Expr> = own.into_iter().filter(|&e| may_vanish(e)).collect();
+    let &[only] = &own[..] else {
+        return None;
+    };
+    let is_same = inner == f && matches!(all[..], [(_, 1)]);
+    let parts = zeros(g, only, symbols, known).and_then(|zeros| {
+        let [square] = zeros.squares[..] else {
+            return None;
+        };
+        let root = g.symbol_expr(zeros.symbol);
+        let slope = g.add(&[g.mul(&[g.integer(2), zeros.a, root]), zeros.b]);
+        let rest = zero_set(g, square, symbols, known).unwrap_or_else(|| vec![square]);
+        Some([vec![slope], rest].concat())
+    });
+    match parts {
+        Some(parts) => Some(parts),
+        None => (!is_same).then(|| vec![only]),
+    }
 }
 
 /// Whether a factor that changes its sign nowhere vanishes only where another one, linear in the same velocity, does.

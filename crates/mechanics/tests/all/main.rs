@@ -6,6 +6,7 @@ mod closed_forms;
 mod constraint_set;
 mod formulations;
 mod mechanisms;
+mod multiplicity;
 mod stated;
 mod surfaces;
 mod touching;

@@ -202,6 +202,38 @@ fn equations_that_nothing_satisfies_are_said() {
     refuted(&found, &["no accelerations satisfy all the equations"]);
 }
 
+/// E² = 0, |E| = 0, E² + F² = 0 say E = 0 for real accelerations, although their Jacobian vanishes there: with E of the motion of
+/// a particle under z' = y x' (by elimination of the multiplier: (1 + y²) x'' + y (x' y' + 1) = 0, y'' = 0).
+#[test]
+fn powers_and_sums_of_squares_say_what_their_bases_do() {
+    let model = |first: &str, second: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2 + z'^2) - z\"\n\
+             [constraints]\nc = \"z' = y x'\"\n[equations]\nown = [\"{first}\", \"{second}\"]\n"
+        )
+    };
+    let claim = "equations.stated#own";
+    let e = "((1 + y^2) x'' + y (x' y' + 1))";
+    let alone = [
+        format!("{e}^2 = 0"),
+        format!("{e}^3 = 0"),
+        format!("abs({e}) = 0"),
+        format!("exp({e}) = 1"),
+        format!("(2 + x'^2) {e}^2 = 0"),
+    ];
+    for first in &alone {
+        proved(&verdict(&model(first, "y'' = 0"), claim));
+    }
+    let sum = format!("{e}^2 + y''^2 = 0");
+    proved(&verdict(&model(&sum, "0 = 0"), claim));
+    let wrong = "((1 + y^2) x'' + y (x' y' - 1))^2 = 0";
+    refuted(&verdict(&model(wrong, "y'' = 0"), claim), &["which vanishes where equation `1` holds"]);
+    let both = format!("{e}^2 + (y'' - x')^2 = 0");
+    refuted(&verdict(&model(&both, "0 = 0"), claim), &["which vanishes where equation `1` holds"]);
+    let few = format!("{e}^2 = 0");
+    refuted(&verdict(&model(&few, "0 = 0"), claim), &["too few"]);
+}
+
 #[test]
 fn right_for_the_parameters_stated_only() {
     // A homogeneous disc rolling upright, its moment of inertia put in: J = m r²/2 (Neimark and Fufaev 1972, ch. II).

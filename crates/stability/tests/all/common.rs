@@ -143,7 +143,9 @@ impl Case {
     /// The verdict on a claim of this crate, at the values that the model states.
     pub(crate) fn verdict(&self, claim: &str, subject: &str) -> Verdict {
         let registry = Registry::new(&[CLAIMS]);
-        let Prepared { terms, selection } = &self.prepared;
+        let Prepared {
+            terms, selection, ..
+        } = &self.prepared;
         let cx = Context::new(&self.system, terms, selection, &registry, Prover::default());
         let own = registry.find(claim).unwrap();
         own.decide(&cx, Some(subject)).verdict

@@ -31,7 +31,9 @@ impl Stability {
     ) -> Option<Result<FirstLyapunov, WithoutLyapunov>> {
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
         let system = &self.system;
-        let Prepared { terms, selection } = Prepared::new(system).ok()?;
+        let Prepared {
+            terms, selection, ..
+        } = Prepared::new(system).ok()?;
         let values = values_at(system, over, system.graph.number(middle.clone()));
         let rows = (&selection.rows[..], &values[..]);
         let point = numbers(&self.motion, system, &terms, rows).ok()?;

@@ -1,0 +1,174 @@
+//! Constraints that hold with multiplicity: wherever they hold their gradients are dependent, although one of them does not follow from the
+//! others. Two spheres that touch, `z = x² + y²` with `z = 2 x y`, and a sum of squares are such; multipliers then determine no motion.
+//!
+//! The common zeros are written by irreducible equations without powers (Wu's triangular systems), sums of squares by their terms as the
+//! states are real. Where the gradients of the constraints as they are stated have a lower rank on each part than it has equations, the
+//! constraints have a multiple zero, and these equations have the same points and a simple one.
+
+use crate::characteristics::Manifold;
+use crate::components::zero_set;
+use crate::prover::{assumptions, Prover};
+use crate::system::System;
+use crate::terms::MotionTerms;
+use crate::words::quoted;
+use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
+use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::verdict::Counterexample;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+/// Constraints with dependent gradients at all states that satisfy them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Multiplicity {
+    /// The constraints.
+    pub names: Vec<String>,
+    /// The rank of their gradients at almost all states that satisfy them, the largest of all parts.
+    pub rank: usize,
+    /// Simpler functions that vanish at the same states, for each part of the set.
+    pub simpler: Vec<Vec<Expr>>,
+}
+
+/// Sums of squares within sums of squares are followed so deep.
+const DEPTH: usize = 8;
+/// It is asked where a motion cannot begin, and the answer is one sentence: a tenth of a proof's work.
+const BUDGET: Budget = Budget {
+    work: 20_000_000,
+    ..Budget::PROOF
+};
+
+impl Multiplicity {
+    /// That of a system of constraints of positions and velocities; `None` where the gradients are independent at some states, or nothing is
+    /// known.
+    pub fn find(system: &System, terms: &MotionTerms, prover: &Prover) -> Option<Multiplicity> {
+        if terms.order > 1 {
+            return None;
+        }
+        let finite = Question::new(system, terms, true);
+        let all = Question::new(system, terms, false);
+        finite
+            .and_then(|own| own.decide(prover))
+            .or_else(|| all?.decide(prover))
+    }
+
+    /// The verdict on independence.
+    pub fn verdict(&self, system: &System) -> Verdict {
+        let missing = (self.names.len() - self.rank).to_string();
+        Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: "constraints minus rank, wherever they hold".into(),
+            residual: (missing.clone(), missing),
+            detail: self.sentence(system),
+        })
+    }
+
+    /// What is wrong, in a sentence that names simpler constraints.
+    pub fn sentence(&self, system: &System) -> String {
+        let g = &system.graph;
+        let part = |all: &Vec<Expr>| {
+            let texts: Vec<String> = all.iter().map(|&e| format!("{} = 0", g.text(e))).collect();
+            texts.join(", ")
+        };
+        let parts: Vec<String> = self.simpler.iter().map(part).collect();
+        let (rank, names) = (self.rank, quoted(&self.names));
+        let are = match self.names.len() {
+            1 => format!("the gradient of {names} vanishes wherever it holds"),
+            _ => format!("the gradients of {names} have the rank {rank} wherever these hold, although none follows from the others"),
+        };
+        format!(
+            "{are}: they have a multiple zero there, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
+            parts.join(" or ")
+        )
+    }
+}
+
+/// Constraints, of positions alone or all.
+struct Question<'a> {
+    system: &'a System,
+    names: Vec<String>,
+    /// What vanishes.
+    functions: Vec<Expr>,
+    /// The gradients by the velocities.
+    gradients: Vec<Vec<Expr>>,
+    /// What is to be determined, coordinates first.
+    symbols: Vec<Symbol>,
+}
+
+impl<'a> Question<'a> {
+    /// `None` where there are no such constraints.
+    fn new(system: &'a System, terms: &MotionTerms, is_of_positions: bool) -> Option<Question<'a>> {
+        let stated = terms
+            .constraint_index
+            .iter()
+            .map(|&l| &system.constraints[l]);
+        let own = stated.zip(&terms.jacobian).zip(&terms.constraints);
+        let own = own.filter(|((c, _), _)| !is_of_positions || c.order == 0);
+        let mut found = Question {
+            system,
+            names: Vec::new(),
+            functions: Vec::new(),
+            gradients: Vec::new(),
+            symbols: system.coordinate_symbols(),
+        };
+        for ((constraint, gradient), &f) in own {
+            found.names.push(constraint.name.clone());
+            found.functions.push(if constraint.order == 0 {
+                constraint.stated
+            } else {
+                f
+            });
+            found.gradients.push(gradient.clone());
+        }
+        if !is_of_positions {
+            found.symbols.extend(system.velocity_symbols());
+        }
+        (!found.names.is_empty()).then_some(found)
+    }
+
+    fn decide(&self, prover: &Prover) -> Option<Multiplicity> {
+        let mut parts = Vec::new();
+        self.real_parts(self.functions.clone(), DEPTH, &mut parts)?;
+        let mut rank = 0;
+        for part in &parts {
+            let manifold = Manifold {
+                solved: Vec::new(),
+                implicit: part.equations.clone(),
+            };
+            let own = prover.rank(self.system, &self.gradients, &manifold).ok()?;
+            if own.maximum >= part.codimension {
+                return None;
+            }
+            rank = rank.max(own.maximum);
+        }
+        let functions = |part: Zeros| part.equations.into_iter().map(|(e, _)| e).collect();
+        (!parts.is_empty()).then(|| Multiplicity {
+            names: self.names.clone(),
+            rank,
+            simpler: parts.into_iter().map(functions).collect(),
+        })
+    }
+
+    /// The parts of the common zeros of functions that may have real points; `None` where they are not found.
+    fn real_parts(&self, functions: Vec<Expr>, depth: usize, found: &mut Vec<Zeros>) -> Option<()> {
+        let g = &self.system.graph;
+        let known = assumptions(self.system);
+        let deeper = depth.checked_sub(1)?;
+        for part in common_zeros(g, &functions, &self.symbols, BUDGET).ok()? {
+            let own = || part.equations.iter().map(|(e, _)| *e);
+            if own().any(|e| known_sign(g, e, &known).is_nonzero()) {
+                continue;
+            }
+            let simpler = own()
+                .enumerate()
+                .find_map(|(at, e)| Some((at, zero_set(g, e, &self.symbols, &known)?)));
+            match simpler {
+                None => found.push(part),
+                Some((at, simpler)) => {
+                    let others = own().enumerate().filter(|(other, _)| *other != at);
+                    let all = others.map(|(_, e)| e).chain(simpler).collect();
+                    self.real_parts(all, deeper, found)?;
+                }
+            }
+        }
+        Some(())
+    }
+}
