@@ -114,7 +114,7 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
     for control in &mut system.controls {
         control.law.get_or_insert(zero);
     }
-    let prepared = Prepared::new(&system)?;
+    let prepared = Prepared::of_motions(&system)?;
     let range = wanted.over.map(|text| range(model, text)).transpose()?;
     let (about, point) = state(model, &system, &prepared, wanted)?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);

@@ -123,6 +123,9 @@ fn subtitle(study: &Study) -> String {
 
 /// "2 independent velocities", and "1 independent derivative of order 3" where the constraints are of that order.
 pub(crate) fn independent(study: &Study) -> String {
+    if let Some(multiplicity) = &study.prepared.multiplicity {
+        return format!("gradients of rank {}", multiplicity.rank);
+    }
     let k = study.system.n() - study.prepared.selection.rows.len();
     match study.prepared.terms.order {
         1 => counted(k, "independent velocity", "independent velocities"),
@@ -156,7 +159,8 @@ const LISTED: usize = 24;
 fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
     let system = &study.system;
     let n = system.n();
-    let r = study.prepared.selection.rows.len();
+    let multiplicity = study.prepared.multiplicity.as_ref();
+    let r = multiplicity.map_or(study.prepared.selection.rows.len(), |own| own.rank);
     let mut coordinates = fact("Coordinates", n.to_string(), Some("n"), None);
     coordinates.formulas = system
         .coordinates
@@ -170,12 +174,17 @@ fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
     let mut facts = vec![
         coordinates,
         fact(
-            "Independent constraints",
+            match multiplicity {
+                Some(_) => "Rank of the gradients",
+                None => "Independent constraints",
+            },
             r.to_string(),
             Some("r"),
             Some("model.constraints-independent"),
         ),
-        fact(
+    ];
+    if multiplicity.is_none() {
+        facts.push(fact(
             match study.prepared.terms.order {
                 1 => "Independent velocities",
                 _ => "Independent derivatives",
@@ -183,8 +192,8 @@ fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
             (n - r).to_string(),
             Some("k"),
             Some("model.accelerations-unique"),
-        ),
-    ];
+        ));
+    }
     facts.extend(classes(study));
     facts
 }

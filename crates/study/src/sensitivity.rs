@@ -30,7 +30,7 @@ pub fn sensitivity(
     times: &[f64],
 ) -> Result<Sensitivities, FollowError> {
     let system = System::from_model(model)?;
-    let prepared = Prepared::new(&system)?;
+    let prepared = Prepared::of_motions(&system)?;
     let data = initial_data(model, &system, &StudyOptions::default())?;
     let is_fixed = |s| {
         let place = |all: Vec<_>| all.iter().position(|own| *own == s);
@@ -87,7 +87,7 @@ const ROWS: f64 = 10.0;
 /// [`FollowError`].
 pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
     let system = System::from_model(model)?;
-    let prepared = Prepared::new(&system)?;
+    let prepared = Prepared::of_motions(&system)?;
     let point = initial(model, &system, &prepared)?;
     let options = StudyOptions::default();
     let t = initial_data(model, &system, &options)?.t;

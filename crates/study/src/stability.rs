@@ -164,7 +164,7 @@ fn in_symbols(
     mut system: System,
     wanted: &Wanted<'_>,
 ) -> Result<Stability, StabilityError> {
-    let prepared = Prepared::new(&system)?;
+    let prepared = Prepared::of_motions(&system)?;
     let (terms, mut selection) = (&prepared.terms, prepared.selection.clone());
     let speeds = match wanted.speeds {
         Some(text) => in_speeds(model, &mut system, &mut selection, text)?,

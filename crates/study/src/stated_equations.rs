@@ -52,8 +52,7 @@ pub(crate) fn is_decided(word: &str) -> bool {
 /// The equations of all formulations whose equivalence the study decided.
 pub fn stated_equations(study: &Study) -> Vec<EquationsRecord> {
     let known = registry();
-    let (terms, selection) = (&study.prepared.terms, &study.prepared.selection);
-    let cx = Context::new(&study.system, terms, selection, &known, Prover::default());
+    let cx = Context::of(&study.system, &study.prepared, &known, Prover::default());
     let decided = (study.verdicts.iter())
         .filter(|d| d.claim == EQUIVALENCE && is_decided(d.finding.verdict.word()));
     let names = decided.filter_map(|d| d.subject.as_deref());

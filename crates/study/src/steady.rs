@@ -29,7 +29,7 @@ pub struct Steady {
 /// [`StabilityError`].
 pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError> {
     let system = System::from_model(model)?;
-    let prepared = Prepared::new(&system)?;
+    let prepared = Prepared::of_motions(&system)?;
     let values = if is_symbolic {
         Vec::new()
     } else {

@@ -74,7 +74,12 @@ fn heading(text: &mut String, study: &Study, style: Style) {
             shortened(&kinds.join(", "), 80)
         );
     }
-    let _ = writeln!(text, "  freedom       k = {}", independent(study));
+    let k = if study.prepared.multiplicity.is_some() {
+        ""
+    } else {
+        "k = "
+    };
+    let _ = writeln!(text, "  freedom       {k}{}", independent(study));
     if !study.system.assumptions.is_empty() {
         let stated = study.system.assumption_texts();
         let _ = writeln!(

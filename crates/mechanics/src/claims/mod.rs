@@ -398,6 +398,21 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// A context with nothing decided, of a system with its terms.
+    pub fn of(
+        system: &'a System,
+        prepared: &'a Prepared,
+        registry: &'a Registry,
+        prover: Prover,
+    ) -> Context<'a> {
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(system, terms, selection, registry, prover);
+        match &prepared.multiplicity {
+            Some(multiplicity) => cx.with(Arc::new(multiplicity.clone())),
+            None => cx,
+        }
+    }
+
     /// Adds the context of the system on which its motions are, where that is another one.
     #[must_use]
     pub fn with_motions_of(mut self, other: Arc<Context<'a>>) -> Context<'a> {
@@ -547,14 +562,12 @@ impl<'a> Context<'a> {
         finding
     }
 
-    /// Why nothing is said of a system whose constraints hold with multiplicity but this.
-    fn no_motion(&self, claim: &dyn Claim) -> Option<Verdict> {
+    /// Why nothing else is said of a system whose constraints hold with multiplicity.
+    fn multiplicity(&self) -> Option<Verdict> {
         let own = model::ConstraintsIndependent.id();
-        let multiplicity = self.extension::<Multiplicity>()?;
-        (claim.id() != own).then(|| {
-            let sentence = multiplicity.sentence(self.system);
-            Verdict::not_applicable(own, format!("`{own}` is refuted: {sentence}"))
-        })
+        let sentence = self.extension::<Multiplicity>()?.sentence(self.system);
+        let detail = format!("`{own}` is refuted: {sentence}");
+        Some(Verdict::not_applicable(own, detail))
     }
 
     fn constraint_beyond(&self, order: u32) -> Option<Verdict> {
@@ -571,7 +584,9 @@ impl<'a> Context<'a> {
     /// Why a claim (without subject: of the system) cannot be decided at all: a constraint of too high an order, or the first
     /// hypothesis that fails.
     pub fn obstacle(&self, claim: &dyn Claim, subject: Option<&str>) -> Option<Verdict> {
-        self.no_motion(claim)
+        let is_asked = claim.id() == model::ConstraintsIndependent.id();
+        let multiplicity = if is_asked { None } else { self.multiplicity() };
+        multiplicity
             .or_else(|| self.constraint_beyond(claim.highest_order(subject)))
             .or_else(|| self.failed_hypothesis(&claim.requires(subject)))
     }
@@ -579,7 +594,8 @@ impl<'a> Context<'a> {
     /// Why equations with these requirements cannot be derived.
     pub fn obstacle_of(&self, card: &Card) -> Option<Verdict> {
         let requires: Vec<String> = card.requires.iter().map(|&id| id.to_owned()).collect();
-        self.constraint_beyond(card.highest_order)
+        self.multiplicity()
+            .or_else(|| self.constraint_beyond(card.highest_order))
             .or_else(|| self.failed_hypothesis(&requires))
     }
 

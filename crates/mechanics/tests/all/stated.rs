@@ -227,9 +227,15 @@ fn powers_and_sums_of_squares_say_what_their_bases_do() {
     let sum = format!("{e}^2 + y''^2 = 0");
     proved(&verdict(&model(&sum, "0 = 0"), claim));
     let wrong = "((1 + y^2) x'' + y (x' y' - 1))^2 = 0";
-    refuted(&verdict(&model(wrong, "y'' = 0"), claim), &["which vanishes where equation `1` holds"]);
+    refuted(
+        &verdict(&model(wrong, "y'' = 0"), claim),
+        &["which vanishes where equation `1` holds"],
+    );
     let both = format!("{e}^2 + (y'' - x')^2 = 0");
-    refuted(&verdict(&model(&both, "0 = 0"), claim), &["which vanishes where equation `1` holds"]);
+    refuted(
+        &verdict(&model(&both, "0 = 0"), claim),
+        &["which vanishes where equation `1` holds"],
+    );
     let few = format!("{e}^2 = 0");
     refuted(&verdict(&model(&few, "0 = 0"), claim), &["too few"]);
 }

@@ -22,8 +22,13 @@ const LINES: usize = 12;
 /// The shortest of the forms, or how long it is.
 pub(super) fn lines(study: &Study) -> String {
     let known = registry();
-    let (terms, selection) = (&study.prepared.terms, &study.prepared.selection);
-    let cx = Context::new(&study.system, terms, selection, &known, Prover::default());
+    let cx = Context::of(&study.system, &study.prepared, &known, Prover::default());
+    if study.prepared.multiplicity.is_some() {
+        return hanging(
+            "  ",
+            "multipliers determine none (model.constraints-independent)",
+        );
+    }
     let readings = Readings::default();
     let written = FORMS.iter().filter_map(|(name, factor)| {
         let form = formulation(name)?;

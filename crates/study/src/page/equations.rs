@@ -23,13 +23,10 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
     }
     let known = crate::registry::registry();
     let prepared = &study.prepared;
-    let cx = Context::new(
-        &study.system,
-        &prepared.terms,
-        &prepared.selection,
-        &known,
-        Prover::default(),
-    );
+    if prepared.multiplicity.is_some() {
+        return sections;
+    }
+    let cx = Context::of(&study.system, prepared, &known, Prover::default());
     let mut forms = Vec::new();
     let mut signs = 0;
     if let Ok(routh) = derive(&cx, "routh") {

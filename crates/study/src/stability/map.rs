@@ -112,7 +112,7 @@ impl Asked {
             .collect::<Result<_, _>>()?;
         let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
         let mut system = System::from_model(model)?;
-        let prepared = Prepared::new(&system)?;
+        let prepared = Prepared::of_motions(&system)?;
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let values = values_but_these(&system, &ranges.clone().map(|own| own.symbol));
         let found = || steady_set(&system, terms, selection, &values);

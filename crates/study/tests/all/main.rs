@@ -3,4 +3,5 @@
 
 mod integrals_along;
 mod linear;
+mod multiplicity;
 mod steps;

@@ -1,7 +1,7 @@
 //! Special values of parameters, and which of them are looked at.
 
 use crate::noether::occurring::congruent;
-use chetaev_mechanics::prover::assumptions;
+use chetaev_mechanics::prover::{assumptions, Exceptional, Prover};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Characteristics, Context};
 use chetaev_symbolic::matrix::determinant;
@@ -92,8 +92,10 @@ pub(super) fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> (Vec<Tie>, bool) 
         _ => true,
     }));
     ties.retain(|tie| is_stated(cx, tie) || is_admitted(cx, tie));
-    ties.retain(|tie| !leaves_no_motion(cx, tie));
     ties.sort_by_key(|tie| !is_stated(cx, tie));
+    // No more are asked than are looked at: the pairs of n parameters are n².
+    let moving = ties.into_iter().filter(|tie| !leaves_no_motion(cx, tie));
+    let mut ties: Vec<Tie> = moving.take(TIES + 1).collect();
     let all = ties.len() <= TIES;
     ties.truncate(TIES);
     (ties, all)
@@ -176,7 +178,17 @@ pub(super) fn leaves_no_motion(cx: &Context<'_>, tie: &Tie) -> bool {
     for entry in mass.iter_mut().flatten() {
         *entry = g.substitute(*entry, &pairs);
     }
+    // What is exceptional among these values is so for no claim.
+    let prover = Prover {
+        exceptional: Exceptional::default(),
+        ..cx.prover.clone()
+    };
+    // At a point of a prime field it is seen at once where it is regular.
+    let rank = prover.rank(system, &mass, &chart.manifold);
+    if rank.is_ok_and(|rank| rank.minimum == mass.len()) {
+        return false;
+    }
     let det = determinant(g, &mass);
-    let verdict = cx.prover.identity(system, &[det], &chart.manifold, "");
+    let verdict = prover.identity(system, &[det], &chart.manifold, "");
     matches!(verdict, Verdict::Proved(_))
 }
