@@ -4,13 +4,10 @@
 //! another factor vanishes, the equation says nothing of it.
 
 mod distinct;
-mod real_factors;
 mod together;
 
 pub use self::distinct::{distinct, of_start};
 
-pub(crate) use self::real_factors::zero_set;
-use self::real_factors::{real_factors, RealFactors};
 use self::together::{covered_by_choice, on_affine};
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::prover::assumptions;
@@ -18,6 +15,8 @@ use crate::selection::Selection;
 use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::factors::{factored, irreducible_factors};
+use chetaev_symbolic::one_to_one::innermost;
+use chetaev_symbolic::real_factors::{real_factors, RealFactors};
 use chetaev_symbolic::zero::assumptions::{Assumptions, SignSet};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
@@ -533,16 +532,6 @@ fn by_logarithms(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Unwrapped>
     })
 }
 
-/// What vanishes where a function does, as the functions around it take no value twice: `u` of `exp(u) − 1`.
-pub(crate) fn innermost(g: &Graph, f: Expr) -> Expr {
-    let mut e = f;
-    // Each argument is a smaller expression.
-    while let Some(inner) = argument(g, e) {
-        e = inner;
-    }
-    e
-}
-
 /// `u − F⁻¹(w)` of `F(u) − w`, for w free of velocities: `a cos w − b sin w` of `atan2(a, b) − w` with `−π < w < π` and `b cos w + a sin w > 0`,
 /// `u cos w − sin w` of `atan u − w` with `|w| < π/2`.
 fn solved_for_argument(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Unwrapped> {
@@ -594,82 +583,4 @@ fn solved_for_argument(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Unwr
         function,
         assumptions,
     })
-}
-
-/// `u − F⁻¹(c)` of `F(u) − c`, and `u − w` of `F(u) − F(w)`.
-fn argument(g: &Graph, e: Expr) -> Option<Expr> {
-    let zero = Rational::from(0);
-    let (constant, terms) = match g.node(e) {
-        Node::Sum { constant, terms } => (constant.clone(), terms.to_vec()),
-        _ => (zero.clone(), vec![(e, Rational::from(1))]),
-    };
-    match terms.as_slice() {
-        [(term, c)] => {
-            let (of, argument) = one_to_one(g, *term)?;
-            let value = g.scale(&(-constant / c.clone()), g.one());
-            Some(g.sub(argument, of.inverse(g, value)?))
-        }
-        [(a, c), (b, d)] if constant == zero && *c == -d.clone() => {
-            let ((of, u), (other, w)) = (one_to_one(g, *a)?, one_to_one(g, *b)?);
-            (of == other).then(|| g.sub(u, w))
-        }
-        _ => None,
-    }
-}
-
-/// A function that takes no value twice, where it is real.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum OneToOne {
-    Named(Function),
-    /// A power of what is not negative.
-    Power(Expr),
-}
-
-fn one_to_one(g: &Graph, e: Expr) -> Option<(OneToOne, Expr)> {
-    use Function::{Asin, Asinh, Atan, Atanh, Exp, Log, Sinh, Tanh};
-    match g.node(e) {
-        Node::Apply {
-            function,
-            arguments,
-        } => {
-            let known = [Asin, Asinh, Atan, Atanh, Exp, Log, Sinh, Tanh].contains(function);
-            known.then(|| (OneToOne::Named(*function), arguments[0]))
-        }
-        Node::Power { base, exponent } => {
-            let is_root = g.as_number(*exponent).is_some() && g.as_integer(*exponent).is_none();
-            is_root.then_some((OneToOne::Power(*exponent), *base))
-        }
-        _ => None,
-    }
-}
-
-impl OneToOne {
-    /// The argument at which the function takes a value; `None` where it does not, or where its gradient may vanish.
-    fn inverse(self, g: &Graph, value: Expr) -> Option<Expr> {
-        use Function::{Asin, Asinh, Atan, Atanh, Exp, Log, Sinh, Tanh};
-        let number = g.evaluate_f64(&[value], &|_| None).ok()?[0];
-        match self {
-            OneToOne::Named(function) => {
-                let inverse = match function {
-                    Exp if number > 0.0 => Log,
-                    Log => Exp,
-                    Sinh => Asinh,
-                    Asinh => Sinh,
-                    Tanh if number.abs() < 1.0 => Atanh,
-                    Atanh => Tanh,
-                    Atan if number.abs() < std::f64::consts::FRAC_PI_2 => {
-                        return Some(g.apply(Function::Tan, &[value]))
-                    }
-                    Asin if number.abs() < std::f64::consts::FRAC_PI_2 => {
-                        return Some(g.sin(value))
-                    }
-                    _ => return None,
-                };
-                Some(g.apply(inverse, &[value]))
-            }
-            OneToOne::Power(exponent) => {
-                (number > 0.0).then(|| g.pow(value, g.div(g.one(), exponent)))
-            }
-        }
-    }
 }

@@ -1,8 +1,8 @@
 //! Constraints and their classification.
 
-use crate::components::innermost;
 use crate::system::{System, SystemError};
 use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::one_to_one::innermost;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// What kind of constraint, by how it is written (T1 §0).

@@ -5,17 +5,19 @@
 //! states are real. Where the gradients of the constraints as they are stated have a lower rank on each part than it has equations, the
 //! constraints have a multiple zero, and these equations have the same points and a simple one.
 
-use crate::characteristics::Manifold;
-use crate::components::zero_set;
+use crate::characteristics::{CharacteristicsError, Manifold};
+use crate::claims::{Degenerate, Prepared};
 use crate::prover::{assumptions, Prover};
+use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words::quoted;
 use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
 use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::real_factors::zero_set;
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Symbol};
 
 /// Constraints with dependent gradients at all states that satisfy them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,15 +52,18 @@ impl Multiplicity {
             .or_else(|| all?.decide(prover))
     }
 
-    /// The verdict on independence.
-    pub fn verdict(&self, system: &System) -> Verdict {
+    /// What it says of independence.
+    pub fn degenerate(&self, system: &System) -> Degenerate {
         let missing = (self.names.len() - self.rank).to_string();
-        Verdict::Refuted(Counterexample {
-            point: Vec::new(),
-            quantity: "constraints minus rank, wherever they hold".into(),
-            residual: (missing.clone(), missing),
-            detail: self.sentence(system),
-        })
+        Degenerate {
+            rank: self.rank,
+            found: Counterexample {
+                point: Vec::new(),
+                quantity: "constraints minus rank, wherever they hold".into(),
+                residual: (missing.clone(), missing),
+                detail: self.sentence(system),
+            },
+        }
     }
 
     /// What is wrong, in a sentence that names simpler constraints.
@@ -78,6 +83,25 @@ impl Multiplicity {
             "{are}: they have a multiple zero there, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
             parts.join(" or ")
         )
+    }
+}
+
+/// Terms and selection of a system that has motions.
+///
+/// # Errors
+/// [`CharacteristicsError::Multiplicity`] where the constraints hold with multiplicity, and when no admissible state exists.
+pub fn prepared(system: &System) -> Result<Prepared, CharacteristicsError> {
+    let prepared = Prepared::new(system);
+    let is_regular = |own: &Prepared| sample::is_regular(system, &own.terms);
+    if prepared.as_ref().is_ok_and(is_regular) {
+        return prepared;
+    }
+    let terms = MotionTerms::new(system);
+    match Multiplicity::find(system, &terms, &Prover::default()) {
+        Some(own) => Err(CharacteristicsError::Multiplicity {
+            sentence: own.sentence(system),
+        }),
+        None => prepared,
     }
 }
 

@@ -19,6 +19,14 @@ pub struct Selection {
 }
 
 impl Selection {
+    /// No constraint.
+    pub fn none() -> Selection {
+        Selection {
+            rows: Vec::new(),
+            dependent: Vec::new(),
+        }
+    }
+
     /// The independent velocities of n coordinates.
     pub fn independent(&self, n: usize) -> Vec<usize> {
         (0..n).filter(|i| !self.dependent.contains(i)).collect()
@@ -40,10 +48,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     let n = system.n();
     let r = terms.constraints.len();
     if r == 0 {
-        return Ok(Selection {
-            rows: Vec::new(),
-            dependent: Vec::new(),
-        });
+        return Ok(Selection::none());
     }
     let point = sample::admissible_point(system, terms, sample::SEED).ok_or_else(|| {
         CharacteristicsError::NoAdmissibleState {

@@ -8,7 +8,8 @@ use crate::sticking::STUCK;
 use crate::stop;
 use crate::watch::Watched;
 use chetaev_integrate::{
-    Direction, Event, EventKind, EventRecord, Expansion, HaltReason, Solution, Stepping, Stop,
+    Direction, Event, EventKind, EventRecord, Expansion, HaltReason, Output, Solution, Stepping,
+    Stop,
 };
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
@@ -33,13 +34,31 @@ pub(crate) struct Course<'o> {
     crossings: Vec<Crossing>,
     stepping: Option<Stepping<'o>>,
     events: Vec<Event<'static>>,
+    /// Where the run begins.
+    begun: f64,
     /// Where the next piece begins.
     at: (f64, Vec<f64>),
     /// Storage for an output row.
     row: Vec<f64>,
     interrupt: Option<&'o AtomicBool>,
+    /// On the way to a zero on which the motion sticks.
+    approach: Option<Approach>,
     end: Option<End>,
 }
+
+/// The approach to a zero on which the motion sticks, from one side: each piece ends before it.
+#[derive(Clone, Copy, Debug)]
+struct Approach {
+    /// The end of the piece.
+    until: f64,
+    /// How many pieces there were.
+    pieces: u32,
+}
+
+/// So much of the way to the zero is gone in one piece.
+const PIECE: f64 = 0.875;
+/// An eighth is left after each piece: more of them than digits are not made.
+const MOST_PIECES: u32 = 24;
 
 impl<'o> Course<'o> {
     /// A run from the state y at time t.
@@ -53,11 +72,13 @@ impl<'o> Course<'o> {
             watched,
             pieces: Vec::new(),
             crossings: Vec::new(),
+            begun: at.0,
             stepping: None,
             events: Vec::new(),
             at,
             row: Vec::new(),
             interrupt,
+            approach: None,
             end: None,
         }
     }
@@ -108,9 +129,13 @@ impl<'o> Course<'o> {
                     &[]
                 };
                 let measure = (absolute, scales);
-                let options = subject.options(settings, t, measure, self.interrupt)?;
+                let mut options = subject.options(settings, t, measure, self.interrupt)?;
                 self.events = happening::events(own, &settings.events);
-                let (span, events) = ((t, settings.t_end), &mut self.events);
+                let until = self.approach.map_or(settings.t_end, |own| own.until);
+                if let Output::Times(times) = &mut options.output {
+                    times.retain(|&own| (until - own) * (until - t) >= 0.0);
+                }
+                let (span, events) = ((t, until), &mut self.events);
                 let begun = Stepping::new(&with_events, span, y, events, options);
                 none.insert(begun.map_err(|problem| subject.named(problem))?)
             }
@@ -178,6 +203,18 @@ impl<'o> Course<'o> {
         let vanished = |index: usize, t: f64| {
             stop::vanished(&self.watched[index], t, &subject.constraint_names())
         };
+        let is_stuck = matches!(
+            stop,
+            Stop::Halted {
+                reason: HaltReason::Custom(STUCK),
+                ..
+            }
+        );
+        let is_piece =
+            self.approach.is_some() && matches!(stop, Stop::Finished | Stop::StepTooSmall { .. });
+        if is_stuck || is_piece {
+            return self.approach(flow, stop, settings);
+        }
         match stop {
             Stop::Event { index, t } if index >= own => {
                 let event = &settings.events[index - own];
@@ -205,13 +242,6 @@ impl<'o> Course<'o> {
                     None => "a quantity whose vanishing makes the equations singular".to_owned(),
                 };
                 return Some(End::Vanished(stop::crowd(&what, t, count)));
-            }
-            Stop::Halted {
-                t,
-                reason: HaltReason::Custom(STUCK),
-            } => {
-                let text = flow.stuck().unwrap_or("what is under a sign");
-                return Some(End::Vanished(stop::stuck(text, t)));
             }
             Stop::Halted {
                 t,
@@ -245,6 +275,60 @@ impl<'o> Course<'o> {
             )));
         }
         Some(End::Stopped(stop, t, y.to_vec()))
+    }
+
+    /// Goes back before the zero on which the motion sticks and up to it from that side alone, until the time to it is rounding; what follows a
+    /// piece of this.
+    fn approach<F: WatchedFlow>(
+        &mut self,
+        flow: &mut F,
+        stop: Stop,
+        settings: &RunSettings,
+    ) -> Option<End> {
+        let is_beyond = matches!(stop, Stop::Halted { .. });
+        let is_at_end = matches!(stop, Stop::StepTooSmall { .. });
+        let pieces = self.approach.map_or(0, |own| own.pieces);
+        let mut rest = flow.sticking().and_then(|own| own.rest()).unwrap_or(0.0);
+        let before = flow.sticking().filter(|_| is_beyond);
+        if let Some(before) = before.and_then(|own| own.before()) {
+            // A piece that goes beyond the zero after all is halved.
+            rest = before.rest * 0.5_f64.powi(pieces.min(1) as i32);
+            self.leave_out_after(before.t, settings.t_end);
+            self.at = (before.t, before.y);
+        } else if is_beyond {
+            rest = 0.0;
+        }
+        let t = self.at.0;
+        let is_rounding =
+            is_at_end || rest.abs() <= 1e-3 * settings.tolerance * (t - self.begun).abs();
+        if is_rounding || pieces >= MOST_PIECES || !rest.is_finite() {
+            let text = flow.stuck().unwrap_or("what is under a sign");
+            return Some(End::Vanished(stop::stuck(text, t + rest)));
+        }
+        if !is_beyond {
+            // Nothing ends here.
+            if let Some(piece) = self.pieces.last_mut() {
+                if piece.times.last() == Some(&t) && !settings.times.contains(&t) {
+                    forget_last(piece);
+                }
+            }
+        }
+        self.approach = Some(Approach {
+            until: t + PIECE * rest,
+            pieces: pieces + 1,
+        });
+        None
+    }
+
+    /// Forgets rows and events after a time.
+    fn leave_out_after(&mut self, from: f64, t_end: f64) {
+        let is_later = |t: f64| (t - from) * (t_end - from) > 0.0;
+        for piece in &mut self.pieces {
+            while piece.times.last().is_some_and(|&t| is_later(t)) {
+                forget_last(piece);
+            }
+            piece.events.retain(|event| !is_later(event.t));
+        }
     }
 
     /// Follows the motion past a place where the rank seems to fall; what follows then, or `None` where nothing was found out.

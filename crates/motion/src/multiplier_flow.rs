@@ -346,6 +346,46 @@ impl MultiplierFlow {
         Ok(())
     }
 
+    /// Whether the motion sticks at an accepted state, on the zero of a function under a sign.
+    fn sticks(&mut self, t: f64, y: &[f64], control: &Control) -> bool {
+        let is_same = !matches!(control, Control::ChartSwitched(_));
+        if let (false, Some(sticking)) = (is_same, self.watch.sticking()) {
+            sticking.keep(None);
+        }
+        let sticks = self.is_driven_back(t, y);
+        if let (false, Some(sticking)) = (sticks, self.watch.sticking()) {
+            sticking.keep(Some((t, y)));
+        }
+        sticks
+    }
+
+    /// Whether an accepted state lies beside a zero to which both sides lead back.
+    fn is_driven_back(&mut self, t: f64, y: &[f64]) -> bool {
+        let mut rates = vec![0.0; y.len()];
+        if self.derivative(t, y, &mut rates).is_err() || self.evaluate(t, y).is_err() {
+            return false;
+        }
+        let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
+        let Some(zero) = self.watch.sticking().and_then(|s| s.look(t, state)) else {
+            return false;
+        };
+        let at = zero.times().map(|after| {
+            let there = y.iter().zip(&rates).map(|(y, rate)| y + after * rate);
+            self.evaluate(t + after, &there.collect::<Vec<f64>>())
+                .ok()?;
+            let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
+            self.watch.sticking()?.rate(zero, t + after, state)
+        });
+        let is_back = self.evaluate(t, y).is_ok();
+        match at {
+            [Some(near), Some(beyond), Some(far)] if is_back => {
+                let sticking = self.watch.sticking();
+                sticking.is_some_and(|s| s.sticks(zero, [near, beyond, far]))
+            }
+            _ => false,
+        }
+    }
+
     /// The accelerations at (q, v). Where all velocities are integrated the chart serves for this alone, and where it is bad
     /// another one is taken, for this state.
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
@@ -647,9 +687,8 @@ impl System for MultiplierFlow {
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }
-        if self.watch.may_stick() && self.evaluate(t, y).is_ok() {
-            let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
-            if self.watch.sticks(t, state) {
+        if self.watch.may_stick() {
+            if self.sticks(t, y, &control) {
                 return Control::Stop(HaltReason::Custom(STUCK));
             }
         }

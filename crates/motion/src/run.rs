@@ -15,6 +15,7 @@ use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
 use crate::row::RowLayout;
 use crate::scales::Scales;
+use crate::sticking::Sticking;
 use crate::stop::{self, Ending};
 use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
@@ -275,6 +276,11 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
 
     /// The function under a sign on whose zero the motion sticks.
     fn stuck(&self) -> Option<&str> {
+        None
+    }
+
+    /// What looks for it.
+    fn sticking(&mut self) -> Option<&mut Sticking> {
         None
     }
 

@@ -1,5 +1,6 @@
 //! Where the sign of a function decides a force and both sides drive the motion back to its zero: it sticks there (A. F. Filippov 1988,
-//! Differential Equations with Discontinuous Righthand Sides, § 4), and steps would chatter across it without end.
+//! Differential Equations with Discontinuous Righthand Sides, § 4), and steps would chatter across it without end. Both sides are asked at the
+//! first step that reaches the zero, whose length the jump has made as short as the tolerance.
 
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
@@ -15,27 +16,81 @@ pub(crate) const STUCK: u32 = u32::MAX;
 pub(crate) struct Sticking {
     functions: Functions,
     n: usize,
+    count: usize,
+    /// One for each, once a state was accepted.
     seen: Vec<Seen>,
+    /// What was seen one state before.
+    before: Vec<Seen>,
     /// As printed.
     texts: Vec<String>,
-    found: Option<usize>,
+    /// The last accepted state with its time.
+    last: Option<(f64, Vec<f64>)>,
+    found: Option<Found>,
 }
 
-/// What was seen of a function.
+/// A zero on which the motion sticks.
+#[derive(Clone, Debug)]
+struct Found {
+    index: usize,
+    /// The accepted state before it.
+    before: Option<Before>,
+    /// The rate near the zero on the side from which the motion comes.
+    arriving: f64,
+}
+
+/// An accepted state before a zero.
+#[derive(Clone, Debug)]
+pub(crate) struct Before {
+    pub(crate) t: f64,
+    pub(crate) y: Vec<f64>,
+    /// The time to the zero.
+    pub(crate) rest: f64,
+}
+
+/// What was seen of a function at the last accepted state.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
+    t: f64,
     value: f64,
+    /// Along the motion.
     rate: f64,
-    largest: f64,
-    /// How often in a row it was driven back across zero.
-    returns: u32,
 }
 
-/// A function is near zero below this part of its largest value.
-const NEAR: f64 = 1e-3;
-/// So often in a row steps near zero are driven back before the motion is said to stick: an oscillation about zero of a size that the
-/// tolerance resolves turns between.
-const RETURNS: u32 = 12;
+/// A zero that the last step reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Zero {
+    /// Of which function.
+    index: usize,
+    /// The function and its rate along the motion, at the accepted state.
+    here: (f64, f64),
+}
+
+/// Parts of the way to the zero at which both sides are asked: near it on this side, near it and as far beyond it.
+const PLACES: [f64; 3] = [0.875, 1.125, 2.0];
+
+impl Zero {
+    /// The times after which the motion would be at these places by its rate now, with the sign of the run.
+    pub(crate) fn times(&self) -> [f64; 3] {
+        PLACES.map(|part| -part * self.here.0 / self.here.1)
+    }
+
+    /// Whether the motion is driven back from both sides, by the function and its rate at the three places. A rate that vanishes with the
+    /// function, as that of a drag, brings it to rest without a jump; one that changes on the way says nothing yet of the zero.
+    fn holds(&self, at: [(f64, f64); 3]) -> bool {
+        let [near, beyond, far] = at;
+        let is_here = near.0 * self.here.0 > 0.0;
+        let is_beyond = beyond.0 * self.here.0 < 0.0 && far.0 * self.here.0 < 0.0;
+        let opposes = |a: f64, b: f64| a * b < 0.0;
+        let is_back =
+            opposes(near.1, beyond.1) && opposes(near.1, far.1) && near.1 * self.here.1 > 0.0;
+        let is_same = |a: f64, b: f64| (a - b).abs() <= UNIFORM * a.abs();
+        let is_uniform = is_same(self.here.1, near.1) && is_same(far.1, beyond.1);
+        is_here && is_beyond && is_back && is_uniform
+    }
+}
+
+/// The rate on each side changes by no more than this part of it, so close to the zero is the motion.
+const UNIFORM: f64 = 0.1;
 
 impl Sticking {
     /// The functions of the state under a sign, or between the two sides of an absolute value that is differentiated, in the forces; `None` where there are none.
@@ -75,15 +130,28 @@ impl Sticking {
         Ok(Some(Sticking {
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),
-            seen: vec![Seen::default(); values.len()],
+            seen: Vec::new(),
+            before: Vec::new(),
+            count: values.len(),
             texts,
+            last: None,
             found: None,
         }))
     }
 
-    /// Forgets what was seen, for another run.
-    pub(crate) fn begin(&mut self) {
-        self.seen.fill(Seen::default());
+    /// Forgets what was seen, for a run from (t, q, v).
+    pub(crate) fn begin(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.seen.clear();
+        if self.functions.evaluate(t, &[q, v]).is_ok() {
+            let at_start = |&value: &f64| Seen {
+                t,
+                value,
+                ..Seen::default()
+            };
+            self.seen
+                .extend(self.functions.group(0).iter().map(at_start));
+        }
+        self.last = None;
         self.found = None;
     }
 
@@ -95,35 +163,115 @@ impl Sticking {
         self.functions.set_parameters(values)
     }
 
-    /// Takes an accepted state with its accelerations into account; true where the motion sticks.
-    pub(crate) fn look(&mut self, t: f64, (q, v, a): (&[f64], &[f64], &[f64])) -> bool {
-        if self.functions.evaluate(t, &[q, v]).is_err() {
-            return false;
-        }
-        for (index, seen) in self.seen.iter_mut().enumerate() {
-            let slopes = &self.functions.group(2)[index * self.n..(index + 1) * self.n];
-            let along: f64 = slopes.iter().zip(a).map(|(s, a)| s * a).sum();
-            let rate = self.functions.group(1)[index] + along;
-            let value = self.functions.group(0)[index];
-            seen.largest = seen.largest.max(value.abs());
-            // Both sides drive back, near zero, although the rate is none there.
-            let is_driven = value * rate <= 0.0 && value.abs() <= NEAR * seen.largest;
-            let jumps = rate * seen.rate < 0.0 || value * seen.value < 0.0;
-            seen.returns = match (is_driven, jumps) {
-                (true, true) => seen.returns + 1,
-                (true, false) => seen.returns,
-                (false, _) => 0,
-            };
-            (seen.value, seen.rate) = (value, rate);
-            if seen.returns >= RETURNS && self.found.is_none() {
-                self.found = Some(index);
+    /// Takes an accepted state with its accelerations into account: the zero of a function that the last step reached, where the motion is
+    /// driven back to it. What is under a sign decides there between two accelerations, and Filippov's condition for the motion to stay is that
+    /// both lead to the zero.
+    pub(crate) fn look(&mut self, t: f64, state: (&[f64], &[f64], &[f64])) -> Option<Zero> {
+        let rates = (0..self.count).map(|index| self.at(index, t, state));
+        let now: Vec<(f64, f64)> = rates.collect::<Option<_>>()?;
+        self.before = std::mem::take(&mut self.seen);
+        let mut found = None;
+        for (index, (value, rate)) in now.into_iter().enumerate() {
+            let last = self.before.get(index);
+            self.seen.push(Seen { t, value, rate });
+            if let (Some(last), None) = (last, found) {
+                let forward = (t - last.t).signum();
+                let is_back = value * rate * forward < 0.0;
+                if is_back && last.reaches_zero(t, value) {
+                    let here = (value, rate);
+                    found = Some(Zero { index, here });
+                }
             }
         }
-        self.found.is_some()
+        found
+    }
+
+    /// The function of a zero with its rate at another state.
+    pub(crate) fn rate(
+        &mut self,
+        zero: Zero,
+        t: f64,
+        state: (&[f64], &[f64], &[f64]),
+    ) -> Option<(f64, f64)> {
+        self.at(zero.index, t, state)
+    }
+
+    /// Whether the motion sticks on a zero, by what was found at its three places.
+    pub(crate) fn sticks(&mut self, zero: Zero, at: [(f64, f64); 3]) -> bool {
+        if !zero.holds(at) {
+            return false;
+        }
+        let [near, beyond, _] = at;
+        let from = self.before.get(zero.index).copied().unwrap_or_default();
+        let arriving = if from.value * near.0 > 0.0 {
+            near.1
+        } else {
+            beyond.1
+        };
+        let before = self.last.take().map(|(t, y)| Before {
+            t,
+            y,
+            rest: from.time_to_zero(arriving),
+        });
+        self.found = Some(Found {
+            index: zero.index,
+            before,
+            arriving,
+        });
+        true
+    }
+
+    /// The accepted state before the zero on which the motion sticks, where its variables are those of now.
+    pub(crate) fn before(&mut self) -> Option<Before> {
+        let before = self.found.as_mut()?.before.take()?;
+        // The motion goes on from there.
+        self.seen = std::mem::take(&mut self.before);
+        Some(before)
+    }
+
+    /// The time from the last accepted state to the zero on which the motion was seen to stick.
+    pub(crate) fn rest(&self) -> Option<f64> {
+        let found = self.found.as_ref()?;
+        let seen = self.seen.get(found.index)?;
+        Some(seen.time_to_zero(found.arriving))
+    }
+
+    /// Keeps an accepted state; `None` where what follows is in other variables.
+    pub(crate) fn keep(&mut self, last: Option<(f64, &[f64])>) {
+        self.last = last.map(|(t, y)| (t, y.to_vec()));
+    }
+
+    /// A function with its rate at a state.
+    fn at(
+        &mut self,
+        index: usize,
+        t: f64,
+        (q, v, a): (&[f64], &[f64], &[f64]),
+    ) -> Option<(f64, f64)> {
+        self.functions.evaluate(t, &[q, v]).ok()?;
+        let slopes = &self.functions.group(2)[index * self.n..(index + 1) * self.n];
+        let along: f64 = slopes.iter().zip(a).map(|(s, a)| s * a).sum();
+        let rate = self.functions.group(1)[index] + along;
+        Some((self.functions.group(0)[index], rate))
     }
 
     /// The function on whose zero the motion sticks.
     pub(crate) fn text(&self) -> Option<&str> {
-        self.found.map(|index| &self.texts[index][..])
+        self.found
+            .as_ref()
+            .map(|found| &self.texts[found.index][..])
+    }
+}
+
+impl Seen {
+    /// When a function with this rate now and the other at its zero vanishes, its rate changing uniformly.
+    fn time_to_zero(&self, arriving: f64) -> f64 {
+        -2.0 * self.value / (self.rate + arriving)
+    }
+
+    /// Whether the step from here to a time with another value reached the zero: it changed the sign, or had to by its rate.
+    fn reaches_zero(&self, t: f64, value: f64) -> bool {
+        let covered = self.value + self.rate * (t - self.t);
+        self.value == 0.0 || self.value * value < 0.0 || self.value * covered < 0.0
     }
 }

@@ -204,9 +204,9 @@ impl Watch {
         self.sticking.is_some()
     }
 
-    /// Takes an accepted state with its accelerations into account; true where the motion sticks on the zero of a function under a sign.
-    pub(crate) fn sticks(&mut self, t: f64, state: (&[f64], &[f64], &[f64])) -> bool {
-        (self.sticking.as_mut()).is_some_and(|sticking| sticking.look(t, state))
+    /// What is asked where the motion may stick.
+    pub(crate) fn sticking(&mut self) -> Option<&mut Sticking> {
+        self.sticking.as_mut()
     }
 
     /// The function on whose zero the motion sticks.
@@ -218,7 +218,7 @@ impl Watch {
     pub(crate) fn begin(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.reference.fill(0.0);
         if let Some(sticking) = &mut self.sticking {
-            sticking.begin();
+            sticking.begin(t, q, v);
         }
         self.is_idle = false;
         self.record(t, q, v);

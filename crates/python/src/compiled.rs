@@ -80,7 +80,7 @@ impl Compiled {
         let g = &system.graph;
         let defined = model.defines.iter().chain(&model.sensors);
         let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
-        let prepared = Prepared::of_motions(system)?;
+        let prepared = multiplicity::prepared(system)?;
         if prepared.terms.order > 1 {
             return Err(NotCompiled::Order(prepared.terms.order));
         }

@@ -705,7 +705,7 @@ impl Model {
         let system = self.system(py)?;
         let found = waiting::done(py, None, |hooks| {
             interruptible(hooks, |_| {
-                let prepared = Prepared::of_motions(&system).map_err(StudyError::from)?;
+                let prepared = multiplicity::prepared(&system).map_err(StudyError::from)?;
                 start_state(&self.model, &system, (&prepared.terms, &prepared.selection))
             })
         })?;

@@ -15,7 +15,7 @@ use crate::stability::{motions, range, Range, StabilityError};
 use crate::start::initial_data;
 use crate::StudyError;
 use chetaev_mechanics::characteristics::CharacteristicsError;
-use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};
+use chetaev_mechanics::{multiplicity, Prepared, SteadyMotion, System, SystemError};
 use chetaev_model::Model;
 use chetaev_motion::{consistent_state, Binding, NumericError, NumericSystem};
 use chetaev_orbits::branch::{self, Branch, End, Equations, Pace, Point};
@@ -114,7 +114,7 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
     for control in &mut system.controls {
         control.law.get_or_insert(zero);
     }
-    let prepared = Prepared::of_motions(&system)?;
+    let prepared = multiplicity::prepared(&system)?;
     let range = wanted.over.map(|text| range(model, text)).transpose()?;
     let (about, point) = state(model, &system, &prepared, wanted)?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);

@@ -123,8 +123,8 @@ fn subtitle(study: &Study) -> String {
 
 /// "2 independent velocities", and "1 independent derivative of order 3" where the constraints are of that order.
 pub(crate) fn independent(study: &Study) -> String {
-    if let Some(multiplicity) = &study.prepared.multiplicity {
-        return format!("gradients of rank {}", multiplicity.rank);
+    if let Some(degenerate) = &study.prepared.degenerate {
+        return format!("gradients of rank {}", degenerate.rank);
     }
     let k = study.system.n() - study.prepared.selection.rows.len();
     match study.prepared.terms.order {
@@ -159,8 +159,8 @@ const LISTED: usize = 24;
 fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
     let system = &study.system;
     let n = system.n();
-    let multiplicity = study.prepared.multiplicity.as_ref();
-    let r = multiplicity.map_or(study.prepared.selection.rows.len(), |own| own.rank);
+    let degenerate = study.prepared.degenerate.as_ref();
+    let r = degenerate.map_or(study.prepared.selection.rows.len(), |own| own.rank);
     let mut coordinates = fact("Coordinates", n.to_string(), Some("n"), None);
     coordinates.formulas = system
         .coordinates
@@ -174,7 +174,7 @@ fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
     let mut facts = vec![
         coordinates,
         fact(
-            match multiplicity {
+            match degenerate {
                 Some(_) => "Rank of the gradients",
                 None => "Independent constraints",
             },
@@ -183,7 +183,7 @@ fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
             Some("model.constraints-independent"),
         ),
     ];
-    if multiplicity.is_none() {
+    if degenerate.is_none() {
         facts.push(fact(
             match study.prepared.terms.order {
                 1 => "Independent velocities",

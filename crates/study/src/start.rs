@@ -11,8 +11,8 @@ use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, 
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, EventWatched, InitialData, NumericSystem,
-    RunSettings, StateKind,
+    consistent_state, Binding, ConsistentState, EventWatched, InitialData, InitialError,
+    NumericSystem, RunSettings, StateKind,
 };
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
 use std::sync::Arc;
@@ -25,22 +25,45 @@ pub(crate) struct Start {
     pub(crate) data: InitialData,
 }
 
+/// Why a system is studied without a motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum NoMotion {
+    /// Something has no value.
+    #[error(
+        "no motion was computed: no value for {names}; give values in the model or with --set"
+    )]
+    NoValue {
+        /// Names in quotes.
+        names: String,
+    },
+    /// Nobody stated where it begins.
+    #[error("no motion was computed, as it would begin where all coordinates and velocities are zero: {0}; state [initial] data")]
+    AtZero(InitialError),
+    /// The constraints hold with multiplicity.
+    #[error("{sentence}")]
+    Multiplicity {
+        /// What holds, with simpler constraints.
+        sentence: String,
+    },
+    /// Derivatives of higher order are not determined.
+    #[error("no motion was computed: {0}")]
+    Undetermined(StudyError),
+}
+
 /// The start, or why there is none although nothing is wrong: the model does not ask for a motion.
 pub(crate) fn start_of_motion(
     model: &Model,
     system: &System,
     terms: &MotionTerms,
     options: &StudyOptions,
-) -> Result<Result<Start, String>, StudyError> {
+) -> Result<Result<Start, NoMotion>, StudyError> {
     let symbolic = system.parameters.iter().any(|p| p.value.is_none())
         || system.controls.iter().any(|u| u.law.is_none());
     if symbolic {
         let names = open_names(system);
         return match asks_for_motion(model) && options.motion {
             true => Err(StudyError::MissingValues { names }),
-            false => Ok(Err(format!(
-                "no motion was computed: no value for {names}; give values in the model or with --set"
-            ))),
+            false => Ok(Err(NoMotion::NoValue { names })),
         };
     }
     let binding = Binding::new(system)?;
@@ -57,9 +80,7 @@ pub(crate) fn start_of_motion(
             }))
         }
         Err(problem) if !asks_for_motion(model) && is_regular_elsewhere(&mut numeric, &data) => {
-            Ok(Err(format!(
-                "no motion was computed, as it would begin where all coordinates and velocities are zero: {problem}; state [initial] data"
-            )))
+            Ok(Err(NoMotion::AtZero(problem)))
         }
         Err(problem) => Err(problem.into()),
     }

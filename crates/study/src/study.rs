@@ -15,7 +15,8 @@ use crate::options::{Hooks, StudyOptions};
 use crate::record;
 use crate::registry::registry;
 use crate::start::{
-    add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, Start,
+    add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, NoMotion,
+    Start,
 };
 use crate::watch::{ending, in_time, interruptible, is_interrupted, watched};
 use crate::witness::{self, Witness};
@@ -132,7 +133,7 @@ impl Outcome {
 pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
     let options = StudyOptions::default();
     let (system, prepared, start) = prepare(model, &options, hooks)?;
-    refuse_multiplicity(&system, &prepared)?;
+    refuse_degenerate(&prepared)?;
     if let Some(detail) = wrong_characteristics(&system, &prepared) {
         return Err(StudyError::WrongCharacteristics { detail });
     }
@@ -162,7 +163,7 @@ pub(crate) fn prepare(
     model: &Model,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> Result<(System, Prepared, Result<Start, String>), StudyError> {
+) -> Result<(System, Prepared, Result<Start, NoMotion>), StudyError> {
     check_expectations(model, &registry())?;
     let system = System::from_model(model)?;
     check_initial_data(model, &system)?;
@@ -173,8 +174,14 @@ pub(crate) fn prepare(
         Err(problem) if is_of_the_constraints(&problem) => {
             match Multiplicity::find(&system, &terms, &Prover::default()) {
                 Some(own) => {
-                    let why = own.sentence(&system);
-                    Ok((system, Prepared::without_motions(terms, own), Err(why)))
+                    let degenerate = own.degenerate(&system);
+                    let sentence = degenerate.found.detail.clone();
+                    let prepared = Prepared {
+                        terms,
+                        selection: Selection::none(),
+                        degenerate: Some(degenerate),
+                    };
+                    Ok((system, prepared, Err(NoMotion::Multiplicity { sentence })))
                 }
                 None => Err(problem),
             }
@@ -192,14 +199,11 @@ fn is_of_the_constraints(problem: &StudyError) -> bool {
 }
 
 /// A system without motions is refused by what asks for one.
-pub(crate) fn refuse_multiplicity(
-    system: &System,
-    prepared: &Prepared,
-) -> Result<(), CharacteristicsError> {
-    match &prepared.multiplicity {
+pub(crate) fn refuse_degenerate(prepared: &Prepared) -> Result<(), CharacteristicsError> {
+    match &prepared.degenerate {
         None => Ok(()),
         Some(own) => Err(CharacteristicsError::Multiplicity {
-            sentence: own.sentence(system),
+            sentence: own.found.detail.clone(),
         }),
     }
 }
@@ -210,7 +214,7 @@ fn with_motions(
     system: &System,
     terms: &MotionTerms,
     options: &StudyOptions,
-) -> Result<(Prepared, Result<Start, String>), StudyError> {
+) -> Result<(Prepared, Result<Start, NoMotion>), StudyError> {
     let start = start_of_motion(model, system, terms, options)?;
     let selection = match chetaev_mechanics::characteristics::select(system, terms) {
         Ok(selection) => selection,
@@ -229,7 +233,7 @@ fn with_motions(
     let prepared = Prepared {
         terms: terms.clone(),
         selection,
-        multiplicity: None,
+        degenerate: None,
     };
     prepared.left_out(system)?;
     let mut start = start;
@@ -249,7 +253,7 @@ fn with_motions(
                 if asks_for_motion(model) {
                     return Err(problem);
                 }
-                start = Err(format!("no motion was computed: {problem}"));
+                start = Err(NoMotion::Undetermined(problem));
             }
             outcome => outcome?,
         }
@@ -335,7 +339,7 @@ pub fn study_telling(
     let began = interruptible(hooks, |hooks| {
         let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
         if !options.claims.wants_claim(&ConstraintsIndependent) {
-            refuse_multiplicity(&system, &prepared)?;
+            refuse_degenerate(&prepared)?;
         }
         let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
         if let Some(detail) = wrong_characteristics(&system, &prepared) {
@@ -359,7 +363,7 @@ pub fn study_telling(
         }
         Ok(_) => None,
         Err(why) => {
-            notices.push(why);
+            notices.push(why.to_string());
             None
         }
     };
@@ -405,7 +409,7 @@ pub fn study_telling(
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
         _ if is_interrupted(hooks) => Outcome::Stopped,
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
-        Outcome::Done if prepared.multiplicity.is_some() && options.motion => Outcome::Unmet,
+        Outcome::Done if prepared.degenerate.is_some() && options.motion => Outcome::Unmet,
         outcome => outcome,
     };
     if is_interrupted(hooks) {

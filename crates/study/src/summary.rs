@@ -74,7 +74,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
             shortened(&kinds.join(", "), 80)
         );
     }
-    let k = if study.prepared.multiplicity.is_some() {
+    let k = if study.prepared.degenerate.is_some() {
         ""
     } else {
         "k = "

@@ -6,7 +6,7 @@
 //! - [`graph`], [`construct`], [`mod@functions`], [`linear`]: the hash-consed graph and its canonical constructors;
 //! - [`calculus`], [`substitute`], [`evaluate`]: derivatives, replacement, values in double precision;
 //! - [`number`], [`polynomial`], [`matrix`], [`factors`], [`quadratic_factors`]: exact arithmetic, normal forms, factorization;
-//! - [`common_zeros`]: what vanishes together, as a union of sets;
+//! - [`common_zeros`], [`real_factors`], [`one_to_one`]: where functions vanish, written by simpler ones;
 //! - [`zero`]: whether expressions vanish, on their own or on constraints: exact forms, modular proofs, refutation by balls;
 //! - [`mod@simplify`], [`mod@print`]: formulas for reading; no proof rests on a simplification;
 //! - [`verdict`]: what is known about a statement.
@@ -24,11 +24,13 @@ pub mod matrix;
 pub mod meter;
 pub mod node;
 pub mod number;
+pub mod one_to_one;
 pub mod parallel;
 pub mod polynomial;
 pub mod print;
 pub mod quadratic_factors;
 pub mod rational;
+pub mod real_factors;
 pub mod simplify;
 pub mod substitute;
 pub mod syntax;

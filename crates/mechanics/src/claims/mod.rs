@@ -25,14 +25,13 @@ use crate::card::Card;
 use crate::characteristics::{self, Selection};
 use crate::components;
 use crate::formulations::DeriveError;
-use crate::multiplicity::Multiplicity;
 use crate::prover::{Noticed, Prover};
 use crate::redundancy::LeftOut;
-use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words;
 use chetaev_model::decision::Found;
+use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::{Expr, Verdict};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
@@ -407,8 +406,8 @@ impl<'a> Context<'a> {
     ) -> Context<'a> {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(system, terms, selection, registry, prover);
-        match &prepared.multiplicity {
-            Some(multiplicity) => cx.with(Arc::new(multiplicity.clone())),
+        match &prepared.degenerate {
+            Some(degenerate) => cx.with(Arc::new(degenerate.clone())),
             None => cx,
         }
     }
@@ -562,10 +561,10 @@ impl<'a> Context<'a> {
         finding
     }
 
-    /// Why nothing else is said of a system whose constraints hold with multiplicity.
-    fn multiplicity(&self) -> Option<Verdict> {
+    /// Why nothing else is said of a system whose constraints determine no motion.
+    fn degenerate(&self) -> Option<Verdict> {
         let own = model::ConstraintsIndependent.id();
-        let sentence = self.extension::<Multiplicity>()?.sentence(self.system);
+        let sentence = &self.extension::<Degenerate>()?.found.detail;
         let detail = format!("`{own}` is refuted: {sentence}");
         Some(Verdict::not_applicable(own, detail))
     }
@@ -585,8 +584,8 @@ impl<'a> Context<'a> {
     /// hypothesis that fails.
     pub fn obstacle(&self, claim: &dyn Claim, subject: Option<&str>) -> Option<Verdict> {
         let is_asked = claim.id() == model::ConstraintsIndependent.id();
-        let multiplicity = if is_asked { None } else { self.multiplicity() };
-        multiplicity
+        let degenerate = if is_asked { None } else { self.degenerate() };
+        degenerate
             .or_else(|| self.constraint_beyond(claim.highest_order(subject)))
             .or_else(|| self.failed_hypothesis(&claim.requires(subject)))
     }
@@ -594,7 +593,7 @@ impl<'a> Context<'a> {
     /// Why equations with these requirements cannot be derived.
     pub fn obstacle_of(&self, card: &Card) -> Option<Verdict> {
         let requires: Vec<String> = card.requires.iter().map(|&id| id.to_owned()).collect();
-        self.multiplicity()
+        self.degenerate()
             .or_else(|| self.constraint_beyond(card.highest_order))
             .or_else(|| self.failed_hypothesis(&requires))
     }
@@ -635,8 +634,17 @@ pub struct Prepared {
     pub terms: MotionTerms,
     /// The selection.
     pub selection: Selection,
-    /// That the constraints hold with multiplicity, where that was asked and is so: the terms then describe no motion.
-    pub multiplicity: Option<Multiplicity>,
+    /// Where the constraints were found to determine no motion at any state: nothing is said of the system but that.
+    pub degenerate: Option<Degenerate>,
+}
+
+/// Constraints with dependent gradients at all states that satisfy them.
+#[derive(Clone, Debug)]
+pub struct Degenerate {
+    /// The rank of the gradients there.
+    pub rank: usize,
+    /// What refutes their independence.
+    pub found: Counterexample,
 }
 
 impl Prepared {
@@ -650,40 +658,8 @@ impl Prepared {
         Ok(Prepared {
             terms,
             selection,
-            multiplicity: None,
+            degenerate: None,
         })
-    }
-
-    /// As [`new`](Prepared::new), for systems that have motions.
-    ///
-    /// # Errors
-    /// [`CharacteristicsError::Multiplicity`](characteristics::CharacteristicsError) where the constraints hold with multiplicity, and when no
-    /// admissible state exists.
-    pub fn of_motions(system: &System) -> Result<Prepared, characteristics::CharacteristicsError> {
-        let prepared = Prepared::new(system);
-        let is_regular = |own: &Prepared| sample::is_regular(system, &own.terms);
-        if prepared.as_ref().is_ok_and(is_regular) {
-            return prepared;
-        }
-        let terms = MotionTerms::new(system);
-        match Multiplicity::find(system, &terms, &Prover::default()) {
-            Some(own) => Err(characteristics::CharacteristicsError::Multiplicity {
-                sentence: own.sentence(system),
-            }),
-            None => prepared,
-        }
-    }
-
-    /// A system whose constraints hold with multiplicity: none of them is chosen.
-    pub fn without_motions(terms: MotionTerms, multiplicity: Multiplicity) -> Prepared {
-        Prepared {
-            terms,
-            selection: Selection {
-                rows: Vec::new(),
-                dependent: Vec::new(),
-            },
-            multiplicity: Some(multiplicity),
-        }
     }
 
     /// The constraints that are left out because they follow from the others.

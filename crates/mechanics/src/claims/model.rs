@@ -1,12 +1,11 @@
 //! The claims of the catalogue, §1, that need no geometry: regularity and the form of the constraints.
 
-use super::{order, stating, Claim, Context, Finding, Formula, Group};
+use super::{order, stating, Claim, Context, Degenerate, Finding, Formula, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::{basis, manifold};
 use crate::constraint::Constraint;
 use crate::frame::{Frame, FrameOrigin};
 use crate::mass;
-use crate::multiplicity::Multiplicity;
 use crate::order::determined::with_multipliers;
 use crate::redundancy::LeftOut;
 use crate::sample;
@@ -117,8 +116,8 @@ impl Claim for ConstraintsIndependent {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
         }
-        if let Some(multiplicity) = cx.extension::<Multiplicity>() {
-            return multiplicity.verdict(cx.system).into();
+        if let Some(degenerate) = cx.extension::<Degenerate>() {
+            return Verdict::Refuted(degenerate.found.clone()).into();
         }
         let left_out = LeftOut::find(cx.system, cx.terms, cx.selection, &cx.prover);
         let verdict = match left_out {

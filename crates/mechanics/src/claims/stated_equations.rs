@@ -7,7 +7,6 @@
 use super::formulation::{derive, REFERENCE};
 use super::on_set::{self, constraint_set, vanish, State};
 use super::{Claim, Context, Finding, Formula, Group};
-use crate::components::zero_set;
 use crate::equations::Equations;
 use crate::prover::assumptions;
 use crate::system::{StatedEquations, System};
@@ -15,6 +14,7 @@ use crate::words::counted;
 use crate::words::number;
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::matrix::null_space;
+use chetaev_symbolic::real_factors::zero_set;
 use chetaev_symbolic::simplify::{length, simplify, Options};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::GenericRank;

@@ -178,8 +178,8 @@ impl<'a> Strata<'a> {
         let make = move |system: &'a System, prepared: &'a Prepared| {
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(system, terms, selection, registry, prover());
-            with(match &grounds.written.1.multiplicity {
-                Some(multiplicity) => cx.with(Arc::new(multiplicity.clone())),
+            with(match &grounds.written.1.degenerate {
+                Some(degenerate) => cx.with(Arc::new(degenerate.clone())),
                 None => cx,
             })
         };

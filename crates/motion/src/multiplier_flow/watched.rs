@@ -4,6 +4,7 @@ use super::{MultiplierFlow, StateKind};
 use crate::along::FunctionAlong;
 use crate::crossing::{State, Track};
 use crate::run::WatchedFlow;
+use crate::sticking::Sticking;
 use chetaev_integrate::Piece;
 use chetaev_symbolic::Expr;
 
@@ -78,6 +79,10 @@ impl WatchedFlow for MultiplierFlow {
 
     fn stuck(&self) -> Option<&str> {
         self.watch.stuck()
+    }
+
+    fn sticking(&mut self) -> Option<&mut Sticking> {
+        self.watch.sticking()
     }
 
     fn event_series(

@@ -7,3 +7,4 @@ mod direct;
 mod double_double;
 mod kept_integrals;
 mod long_runs;
+mod sticking;

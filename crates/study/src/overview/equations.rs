@@ -23,7 +23,7 @@ const LINES: usize = 12;
 pub(super) fn lines(study: &Study) -> String {
     let known = registry();
     let cx = Context::of(&study.system, &study.prepared, &known, Prover::default());
-    if study.prepared.multiplicity.is_some() {
+    if study.prepared.degenerate.is_some() {
         return hanging(
             "  ",
             "multipliers determine none (model.constraints-independent)",

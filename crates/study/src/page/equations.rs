@@ -23,7 +23,7 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
     }
     let known = crate::registry::registry();
     let prepared = &study.prepared;
-    if prepared.multiplicity.is_some() {
+    if prepared.degenerate.is_some() {
         return sections;
     }
     let cx = Context::of(&study.system, prepared, &known, Prover::default());

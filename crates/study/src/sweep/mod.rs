@@ -14,7 +14,7 @@ use crate::error::StudyError;
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{components_are_apart, keeps, kept, movable, prepare, refuse_multiplicity};
+use crate::study::{components_are_apart, keeps, kept, movable, prepare, refuse_degenerate};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};
@@ -110,8 +110,10 @@ impl Sweep {
         hooks: &mut Hooks<'_>,
     ) -> Result<Sweep, StudyError> {
         let (system, prepared, start) = prepare(&base, &options.study, hooks)?;
-        refuse_multiplicity(&system, &prepared)?;
-        let start = start.map_err(|why| StudyError::NoMotion { why })?;
+        refuse_degenerate(&prepared)?;
+        let start = start.map_err(|why| StudyError::NoMotion {
+            why: why.to_string(),
+        })?;
         let mut settings = settings(&base, &system, start.start.t, &options.study)?;
         let method = chetaev_integrate::method(&settings.method).map_err(RunError::from)?;
         if !method.card().adaptive && settings.step.is_none() {

@@ -52,7 +52,9 @@ impl Whole<'_> {
         let system = System::from_model(&model)?;
         let prepared = &sweep.prepared;
         let start = start_of_motion(&model, &system, &prepared.terms, options)?;
-        let mut start = start.map_err(|why| StudyError::NoMotion { why })?;
+        let mut start = start.map_err(|why| StudyError::NoMotion {
+            why: why.to_string(),
+        })?;
         match prepared.terms.order {
             1 => check_rank(&start, prepared.selection.rows.len())?,
             _ => {

@@ -1,30 +1,25 @@
-//! Factors of a constraint function on whose zero sets it holds for real velocities.
+//! Factors of a function on whose zero sets it vanishes for real values of some symbols, called velocities here.
 //!
 //! `z'³ − y³ x'³` is `(z' − y x')` times a form that vanishes where `z' − y x'` does and nowhere else; `z'/x' − y` is `z' − y x'` where
 //! x' ≠ 0.
 
-use super::innermost;
-use chetaev_symbolic::factors::{coefficients, factored, irreducible_factors};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::factors::{coefficients, factored, irreducible_factors};
+use crate::one_to_one::innermost;
+use crate::zero::assumptions::Assumptions;
+use crate::zero::known_sign;
+use crate::{Expr, Function, Graph, Node, Rational, Symbol};
 
-/// What a constraint function vanishes by.
+/// What a function vanishes by.
 #[derive(Clone, Debug, Default)]
-pub(super) struct RealFactors {
+pub struct RealFactors {
     /// It vanishes where one of these does and no denominator vanishes.
-    pub(super) factors: Vec<Expr>,
+    pub factors: Vec<Expr>,
     /// Denominators in which velocities occur and which may vanish.
-    pub(super) denominators: Vec<Expr>,
+    pub denominators: Vec<Expr>,
 }
 
 /// The factors in which velocities occur, without those that vanish nowhere but where another one does.
-pub(super) fn real_factors(
-    g: &Graph,
-    f: Expr,
-    velocities: &[Symbol],
-    known: &Assumptions,
-) -> RealFactors {
+pub fn real_factors(g: &Graph, f: Expr, velocities: &[Symbol], known: &Assumptions) -> RealFactors {
     let Some(parts) = factored(g, f) else {
         return RealFactors::default();
     };
@@ -122,12 +117,7 @@ fn zeros(g: &Graph, e: Expr, velocities: &[Symbol], known: &Assumptions) -> Opti
 
 /// Functions that vanish together exactly where one does, for real values of some symbols, and are simpler: the base of a power, the argument of
 /// an absolute value or of a function that takes its value once, what stands in a sum of squares. `None` where there are none.
-pub(crate) fn zero_set(
-    g: &Graph,
-    f: Expr,
-    symbols: &[Symbol],
-    known: &Assumptions,
-) -> Option<Vec<Expr>> {
+pub fn zero_set(g: &Graph, f: Expr, symbols: &[Symbol], known: &Assumptions) -> Option<Vec<Expr>> {
     let inner = match g.node(innermost(g, f)) {
         Node::Apply {
             function: Function::Abs,
