@@ -754,10 +754,8 @@ impl Flow for FormulationFlow<'_> {
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.record(t, &q, &v);
         self.settle(t);
-        if self.watch.may_stick() {
-            if self.sticks(t, y, &control) {
-                return Control::Stop(HaltReason::Custom(STUCK));
-            }
+        if self.watch.may_stick() && self.sticks(t, y, &control) {
+            return Control::Stop(HaltReason::Custom(STUCK));
         }
         let vanished = self.watch.vanished();
         if self.track.is_some() && vanished.is_none() && !matches!(control, Control::Stop(_)) {

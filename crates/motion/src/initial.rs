@@ -147,7 +147,7 @@ struct Search<'a> {
 const EXACT: f64 = 4.0;
 /// Residuals within so many satisfy a constraint: 2e-12 of its terms, what Newton's method leaves where gradients nearly depend.
 const SATISFIED: f64 = 16_384.0;
-/// A gradient all of whose entries are below this part of their terms vanishes.
+/// A gradient all of whose entries are below this part of their terms vanishes at a state that was searched for.
 const VANISHED: f64 = 1e-7;
 
 impl Search<'_> {
@@ -439,8 +439,17 @@ impl Search<'_> {
     /// A row whose gradient vanishes at the state last evaluated.
     fn vanishing_gradient(&self, at: &RoundedConstraints) -> Option<usize> {
         let (gradient, n) = (&at.gradient, self.system.n);
-        let vanishes = |x: &Rounded| x.value.abs() <= VANISHED * x.size() || x.is_zero(EXACT);
-        (0..self.system.r).find(|&row| gradient[row * n..(row + 1) * n].iter().all(vanishes))
+        // What was searched for at a singular place is known to half the digits; data are exact, as the place of a tether in an orbit.
+        let is_given = |row: usize| {
+            self.q == self.data.q && (self.system.affine[row] || self.v == self.data.v)
+        };
+        let vanishes = |row: usize, x: &Rounded| {
+            x.is_zero(EXACT) || !is_given(row) && x.value.abs() <= VANISHED * x.size()
+        };
+        (0..self.system.r).find(|&row| {
+            let mut entries = gradient[row * n..(row + 1) * n].iter();
+            entries.all(|x| vanishes(row, x))
+        })
     }
 
     fn check_inertia(&self, chart: &Chart) -> Result<(), InitialError> {

@@ -687,10 +687,8 @@ impl System for MultiplierFlow {
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }
-        if self.watch.may_stick() {
-            if self.sticks(t, y, &control) {
-                return Control::Stop(HaltReason::Custom(STUCK));
-            }
+        if self.watch.may_stick() && self.sticks(t, y, &control) {
+            return Control::Stop(HaltReason::Custom(STUCK));
         }
         if let Some(follow) = &mut self.follow {
             follow.record(t, &self.q, &self.v);

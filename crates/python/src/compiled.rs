@@ -12,6 +12,7 @@ use chetaev::model::Model;
 use chetaev::motion::functions::FunctionsError;
 use chetaev::motion::{Binding, NumericError};
 use chetaev::study::free::following;
+use chetaev::study::start;
 use chetaev::symbolic::{Expr, Graph};
 use numpy::ndarray::{Axis, Slice};
 use numpy::{
@@ -80,7 +81,7 @@ impl Compiled {
         let g = &system.graph;
         let defined = model.defines.iter().chain(&model.sensors);
         let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
-        let prepared = multiplicity::prepared(system)?;
+        let prepared = start::prepared(model, system)?;
         if prepared.terms.order > 1 {
             return Err(NotCompiled::Order(prepared.terms.order));
         }

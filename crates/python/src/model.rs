@@ -6,16 +6,14 @@ use crate::outcome::Outcome;
 use crate::sweep::{Sweep, Varied};
 use crate::texts::{files_beside, text_at, Pairs};
 use crate::{problem, waiting};
-use chetaev::mechanics::{
-    formulation, Context, Formulation, Prepared, Prover, System, FORMULATIONS,
-};
+use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
 use chetaev::model::model::{ModelText, Precision};
 use chetaev::model::{self, Diagnostics, Loaded, Sources, Style};
 use chetaev::motion::double_double;
 use chetaev::orbits::variational::Order;
 use chetaev::study::board;
 use chetaev::study::free::following;
-use chetaev::study::start::start_state;
+use chetaev::study::start::{self, start_state};
 use chetaev::study::steady::steady;
 use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
@@ -181,7 +179,7 @@ impl Model {
         let found = waiting::done(py, tell, |hooks| {
             interruptible(hooks, |hooks| {
                 (hooks.progress)("deriving", None);
-                let (prepared, notes) = written::prepared(&system)?;
+                let (prepared, notes) = written::prepared(&self.model, &system)?;
                 let known = registry();
                 let (terms, selection) = (&prepared.terms, &prepared.selection);
                 let cx = Context::new(&system, terms, selection, &known, Prover::default());
@@ -705,7 +703,7 @@ impl Model {
         let system = self.system(py)?;
         let found = waiting::done(py, None, |hooks| {
             interruptible(hooks, |_| {
-                let prepared = multiplicity::prepared(&system).map_err(StudyError::from)?;
+                let prepared = start::prepared(&self.model, &system).map_err(StudyError::from)?;
                 start_state(&self.model, &system, (&prepared.terms, &prepared.selection))
             })
         })?;

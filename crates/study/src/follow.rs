@@ -12,10 +12,11 @@ pub(crate) use text::hopf;
 
 use crate::options::StudyOptions;
 use crate::stability::{motions, range, Range, StabilityError};
+use crate::start;
 use crate::start::initial_data;
 use crate::StudyError;
 use chetaev_mechanics::characteristics::CharacteristicsError;
-use chetaev_mechanics::{multiplicity, Prepared, SteadyMotion, System, SystemError};
+use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};
 use chetaev_model::Model;
 use chetaev_motion::{consistent_state, Binding, NumericError, NumericSystem};
 use chetaev_orbits::branch::{self, Branch, End, Equations, Pace, Point};
@@ -114,7 +115,7 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
     for control in &mut system.controls {
         control.law.get_or_insert(zero);
     }
-    let prepared = multiplicity::prepared(&system)?;
+    let prepared = start::prepared(model, &system)?;
     let range = wanted.over.map(|text| range(model, text)).transpose()?;
     let (about, point) = state(model, &system, &prepared, wanted)?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);

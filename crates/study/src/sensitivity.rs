@@ -7,9 +7,10 @@
 
 use crate::follow::{initial, FollowError};
 use crate::options::StudyOptions;
+use crate::start;
 use crate::start::{initial_data, settings};
 use chetaev_integrate::Output;
-use chetaev_mechanics::{multiplicity, System};
+use chetaev_mechanics::System;
 use chetaev_model::Model;
 use chetaev_orbits::along::{along, Along};
 use chetaev_orbits::flow::Coordinates;
@@ -30,7 +31,7 @@ pub fn sensitivity(
     times: &[f64],
 ) -> Result<Sensitivities, FollowError> {
     let system = System::from_model(model)?;
-    let prepared = multiplicity::prepared(&system)?;
+    let prepared = start::prepared(model, &system)?;
     let data = initial_data(model, &system, &StudyOptions::default())?;
     let is_fixed = |s| {
         let place = |all: Vec<_>| all.iter().position(|own| *own == s);
@@ -87,7 +88,7 @@ const ROWS: f64 = 10.0;
 /// [`FollowError`].
 pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
     let system = System::from_model(model)?;
-    let prepared = multiplicity::prepared(&system)?;
+    let prepared = start::prepared(model, &system)?;
     let point = initial(model, &system, &prepared)?;
     let options = StudyOptions::default();
     let t = initial_data(model, &system, &options)?.t;

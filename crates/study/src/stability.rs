@@ -15,8 +15,9 @@ mod text;
 
 pub use error::StabilityError;
 
+use crate::start;
 use chetaev_mechanics::system::QuasiVelocity;
-use chetaev_mechanics::{multiplicity, Selection, SteadyMotion, System};
+use chetaev_mechanics::{Selection, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::descriptor::Descriptor;
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
@@ -164,7 +165,7 @@ fn in_symbols(
     mut system: System,
     wanted: &Wanted<'_>,
 ) -> Result<Stability, StabilityError> {
-    let prepared = multiplicity::prepared(&system)?;
+    let prepared = start::prepared(model, &system)?;
     let (terms, mut selection) = (&prepared.terms, prepared.selection.clone());
     let speeds = match wanted.speeds {
         Some(text) => in_speeds(model, &mut system, &mut selection, text)?,

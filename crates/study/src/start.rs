@@ -5,8 +5,9 @@ use crate::options::StudyOptions;
 use crate::precise;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Direction;
+use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::system::{Assumption, Relation};
-use chetaev_mechanics::{Basis, MotionTerms, Selection, System};
+use chetaev_mechanics::{multiplicity, Basis, MotionTerms, Prepared, Selection, System};
 use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
@@ -83,6 +84,38 @@ pub(crate) fn start_of_motion(
             Ok(Err(NoMotion::AtZero(problem)))
         }
         Err(problem) => Err(problem.into()),
+    }
+}
+
+/// Terms and selection of the system of a model, which has motions. Where no state is found at random that satisfies the constraints, as those
+/// of a linkage that is overconstrained, the one from which the model starts says which of them are independent.
+///
+/// # Errors
+/// [`CharacteristicsError`] where the constraints hold with multiplicity, and when no admissible state is found.
+pub fn prepared(model: &Model, system: &System) -> Result<Prepared, CharacteristicsError> {
+    let problem = match multiplicity::prepared(system) {
+        Err(problem @ CharacteristicsError::NoAdmissibleState { .. }) => problem,
+        found => return found,
+    };
+    let terms = MotionTerms::new(system);
+    match start_of_motion(model, system, &terms, &StudyOptions::default()) {
+        Ok(Ok(found)) if terms.order == 1 => Ok(Prepared {
+            terms,
+            selection: found.selection(),
+            degenerate: None,
+        }),
+        _ => Err(problem),
+    }
+}
+
+impl Start {
+    /// The constraints that are independent there, and velocities to solve them for.
+    pub(crate) fn selection(&self) -> Selection {
+        let chart = &self.start.chart;
+        Selection {
+            rows: chart.rows.clone(),
+            dependent: chart.dependent.clone(),
+        }
     }
 }
 

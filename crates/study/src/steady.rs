@@ -5,7 +5,8 @@
 )]
 
 use crate::stability::error::StabilityError;
-use chetaev_mechanics::{multiplicity, System};
+use crate::start;
+use chetaev_mechanics::System;
 use chetaev_model::Model;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, Value};
 use chetaev_symbolic::Graph;
@@ -29,7 +30,7 @@ pub struct Steady {
 /// [`StabilityError`].
 pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError> {
     let system = System::from_model(model)?;
-    let prepared = multiplicity::prepared(&system)?;
+    let prepared = start::prepared(model, &system)?;
     let values = if is_symbolic {
         Vec::new()
     } else {

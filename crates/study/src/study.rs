@@ -219,10 +219,7 @@ fn with_motions(
     let selection = match chetaev_mechanics::characteristics::select(system, terms) {
         Ok(selection) => selection,
         Err(error) => match &start {
-            Ok(n) if terms.order == 1 => Selection {
-                rows: n.start.chart.rows.clone(),
-                dependent: n.start.chart.dependent.clone(),
-            },
+            Ok(found) if terms.order == 1 => found.selection(),
             _ => return Err(error.into()),
         },
     };
@@ -284,10 +281,7 @@ fn on_component_of(
     let laws = |e| g.substitute_all(&[e], &start.binding.controls)[0];
     let is_plain = terms.jacobian.concat().into_iter().all(|e| laws(e) == e);
     match is_plain.then(|| rank_near(system, terms, &state)).flatten() {
-        Some(rank) if rank == chart.rank() => Selection {
-            rows: chart.rows.clone(),
-            dependent: chart.dependent.clone(),
-        },
+        Some(rank) if rank == chart.rank() => start.selection(),
         _ => selection,
     }
 }

@@ -9,9 +9,10 @@ mod numbers;
 mod printed;
 
 use crate::derivation::{derivation, Derivation, NotDerived, Readings};
+use crate::start;
 use crate::written::numbers::Numbers;
 use chetaev_mechanics::characteristics::CharacteristicsError;
-use chetaev_mechanics::{choice, multiplicity, Context, Formulation, Prepared, System};
+use chetaev_mechanics::{choice, Context, Formulation, Prepared, System};
 use chetaev_model::Model;
 use chetaev_symbolic::print::{CodeError, Format};
 
@@ -119,8 +120,11 @@ pub enum NotWritten {
 ///
 /// # Errors
 /// [`CharacteristicsError`] where no admissible state is found.
-pub fn prepared(system: &System) -> Result<(Prepared, Vec<String>), CharacteristicsError> {
-    let prepared = multiplicity::prepared(system)?;
+pub fn prepared(
+    model: &Model,
+    system: &System,
+) -> Result<(Prepared, Vec<String>), CharacteristicsError> {
+    let prepared = start::prepared(model, system)?;
     let mut notes = Vec::new();
     if let Some(left_out) = prepared.left_out(system)? {
         notes.push(format!(

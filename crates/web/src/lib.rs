@@ -100,7 +100,7 @@ pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<Str
     let asked = asked.ok_or(Refusal::Absent("such formulation"))?;
     let found = with_hooks(&mut |_, _| {}, |hooks| {
         interruptible(hooks, |_| {
-            let (prepared, _) = written::prepared(&system)?;
+            let (prepared, _) = written::prepared(&model, &system)?;
             let known = registry();
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(&system, terms, selection, &known, Prover::default());

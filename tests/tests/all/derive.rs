@@ -67,6 +67,15 @@ fn every_notation_is_printed_for_every_model() {
     }
 }
 
+/// Bricard's linkage: five of its constraints demand what four do, at no position that is met by chance.
+#[test]
+fn a_linkage_that_is_overconstrained_is_derived_where_it_starts() {
+    let model = root().join("gallery/bodies/bricard.toml");
+    let finished = run(&["derive", text(&model)]);
+    assert_eq!(finished.status, Some(0), "{}", finished.stderr);
+    assert!(finished.both().contains("left out"), "{}", finished.stderr);
+}
+
 /// One root, and elements closed in the order opposite to that in which they were opened.
 fn nested(markup: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();

@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     };
     let (prepared, notes) = match with_progress(|line| {
         line.show("deriving", None);
-        prepared(&system)
+        prepared(&read.model, &system)
     }) {
         Ok(prepared) => prepared,
         Err(problem) => {

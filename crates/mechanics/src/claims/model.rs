@@ -673,13 +673,16 @@ fn solvable(
 /// One pivot column per row by elimination with row-wise largest pivot; `None` when the rank is short.
 fn pivot_columns(mut rows: Vec<Vec<f64>>) -> Option<Vec<usize>> {
     let mut columns = Vec::new();
+    // Each row in its own units.
+    let largest = |row: &Vec<f64>| row.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let scales: Vec<f64> = rows.iter().map(largest).collect();
     for i in 0..rows.len() {
         let (column, value) = rows[i]
             .iter()
             .enumerate()
             .map(|(j, x)| (j, x.abs()))
             .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        if value < 1e-9 {
+        if value <= 1e-9 * scales[i] {
             return None;
         }
         columns.push(column);

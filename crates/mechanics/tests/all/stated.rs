@@ -67,6 +67,18 @@ slip = ["m (x'' cos(phi) + y'' sin(phi)) = m l phi'^2 + m phi'", "J phi'' = -m l
     refuted(&decided(&at_zero, "equations.stated#slip"), &[]);
 }
 
+/// r' = a φ' is Chaplygin's for any a that is not zero, as φ is cyclic and dependent (S. A. Chaplygin 1897): 1 in units of an atom is 1e-12 in others.
+#[test]
+fn a_small_number_is_none() {
+    for a in ["1e-12", "1e-3", "1", "1e9"] {
+        let text = format!(
+            "coordinates = [\"r\", \"phi\"]\nparameters = {{ a = {a} }}\n[lagrangian]\nL = \"1/2 (r'^2 + r^2 phi'^2) + 1/r\"\n\
+             [constraints]\nc = \"r' = a phi'\"\n"
+        );
+        proved(&verdict(&text, "model.chaplygin"));
+    }
+}
+
 /// |x'| is x' for every velocity that the model assumes, and has a corner where it assumes nothing.
 #[test]
 fn constraints_are_linear_for_the_velocities_that_are_assumed() {

@@ -6,7 +6,8 @@
 //! 1914), are given exactly where they are short.
 
 use super::{at, check_parameter, motions, range, with_values, Range, StabilityError, Wanted};
-use chetaev_mechanics::{multiplicity, SteadyMotion, System};
+use crate::start;
+use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::eigenvalues::{eigenvalues, Complex};
 use chetaev_stability::expansion::Expansion;
@@ -112,7 +113,7 @@ impl Asked {
             .collect::<Result<_, _>>()?;
         let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
         let mut system = System::from_model(model)?;
-        let prepared = multiplicity::prepared(&system)?;
+        let prepared = start::prepared(model, &system)?;
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let values = values_but_these(&system, &ranges.clone().map(|own| own.symbol));
         let found = || steady_set(&system, terms, selection, &values);
