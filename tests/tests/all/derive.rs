@@ -72,8 +72,8 @@ fn every_notation_is_printed_for_every_model() {
 fn a_linkage_that_is_overconstrained_is_derived_where_it_starts() {
     let model = root().join("gallery/bodies/bricard.toml");
     let finished = run(&["derive", text(&model)]);
-    assert_eq!(finished.status, Some(0), "{}", finished.stderr);
-    assert!(finished.both().contains("left out"), "{}", finished.stderr);
+    assert_eq!(finished.status, Some(0), "{}", finished.err);
+    assert!(finished.both().contains("left out"), "{}", finished.err);
 }
 
 /// One root, and elements closed in the order opposite to that in which they were opened.
