@@ -17,7 +17,7 @@ use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::scales::{power, Scales};
 use crate::series::RateSeries;
-use crate::sticking::{Sticking, STUCK};
+use crate::sticking::{Place, Sides, Sticking, STUCK};
 use crate::turns::Turns;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
@@ -342,42 +342,13 @@ impl<'a> FormulationFlow<'a> {
 
     /// Whether the motion sticks at an accepted state, on the zero of a function under a sign.
     fn sticks(&mut self, t: f64, y: &[f64], control: &Control) -> bool {
-        let is_same = !matches!(control, Control::ChartSwitched(_));
-        if let (false, Some(sticking)) = (is_same, self.watch.sticking()) {
-            sticking.keep(None);
-        }
-        let sticks = self.is_driven_back(t, y);
-        if let (false, Some(sticking)) = (sticks, self.watch.sticking()) {
-            sticking.keep(Some((t, y)));
-        }
-        sticks
-    }
-
-    /// Whether an accepted state lies beside a zero to which both sides lead back.
-    fn is_driven_back(&mut self, t: f64, y: &[f64]) -> bool {
-        let mut rates = vec![0.0; y.len()];
-        if self.derivative(t, y, &mut rates).is_err() || self.evaluate(t, y).is_err() {
-            return false;
-        }
-        let state = (&self.q[..], &self.v[..], self.current.motion.group(1));
-        let Some(zero) = self.watch.sticking().and_then(|s| s.look(t, state)) else {
+        let Some(mut sticking) = self.watch.take_sticking() else {
             return false;
         };
-        let at = zero.times().map(|after| {
-            let there = y.iter().zip(&rates).map(|(y, rate)| y + after * rate);
-            self.evaluate(t + after, &there.collect::<Vec<f64>>())
-                .ok()?;
-            let state = (&self.q[..], &self.v[..], self.current.motion.group(1));
-            self.watch.sticking()?.rate(zero, t + after, state)
-        });
-        let is_back = self.evaluate(t, y).is_ok();
-        match at {
-            [Some(near), Some(beyond), Some(far)] if is_back => {
-                let sticking = self.watch.sticking();
-                sticking.is_some_and(|s| s.sticks(zero, [near, beyond, far]))
-            }
-            _ => false,
-        }
+        let is_same = !matches!(control, Control::ChartSwitched(_));
+        let sticks = sticking.holds(self, (t, y), is_same);
+        self.watch.give_back(sticking);
+        sticks
     }
 
     /// Chooses a chart at (t, q, v) and enters it when it is better than `worst` by the hysteresis.
@@ -681,6 +652,13 @@ fn multipliers(equations: &Equations, terms: &MotionTerms, zero: Expr) -> Vec<Ex
         .collect()
 }
 
+impl Sides for FormulationFlow<'_> {
+    fn state(&mut self, t: f64, y: &[f64]) -> Option<Place<'_>> {
+        self.evaluate(t, y).ok()?;
+        Some((&self.q, &self.v, self.current.motion.group(1)))
+    }
+}
+
 impl Flow for FormulationFlow<'_> {
     fn dimension(&self) -> usize {
         self.numeric.positions() + self.variables.len()
@@ -754,7 +732,7 @@ impl Flow for FormulationFlow<'_> {
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.record(t, &q, &v);
         self.settle(t);
-        if self.watch.may_stick() && self.sticks(t, y, &control) {
+        if self.sticks(t, y, &control) {
             return Control::Stop(HaltReason::Custom(STUCK));
         }
         let vanished = self.watch.vanished();

@@ -21,7 +21,7 @@ use crate::numeric::{Completion, NumericSystem, States};
 use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::series::RateSeries;
-use crate::sticking::STUCK;
+use crate::sticking::{Place, Sides, STUCK};
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
 
@@ -348,42 +348,13 @@ impl MultiplierFlow {
 
     /// Whether the motion sticks at an accepted state, on the zero of a function under a sign.
     fn sticks(&mut self, t: f64, y: &[f64], control: &Control) -> bool {
-        let is_same = !matches!(control, Control::ChartSwitched(_));
-        if let (false, Some(sticking)) = (is_same, self.watch.sticking()) {
-            sticking.keep(None);
-        }
-        let sticks = self.is_driven_back(t, y);
-        if let (false, Some(sticking)) = (sticks, self.watch.sticking()) {
-            sticking.keep(Some((t, y)));
-        }
-        sticks
-    }
-
-    /// Whether an accepted state lies beside a zero to which both sides lead back.
-    fn is_driven_back(&mut self, t: f64, y: &[f64]) -> bool {
-        let mut rates = vec![0.0; y.len()];
-        if self.derivative(t, y, &mut rates).is_err() || self.evaluate(t, y).is_err() {
-            return false;
-        }
-        let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
-        let Some(zero) = self.watch.sticking().and_then(|s| s.look(t, state)) else {
+        let Some(mut sticking) = self.watch.take_sticking() else {
             return false;
         };
-        let at = zero.times().map(|after| {
-            let there = y.iter().zip(&rates).map(|(y, rate)| y + after * rate);
-            self.evaluate(t + after, &there.collect::<Vec<f64>>())
-                .ok()?;
-            let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
-            self.watch.sticking()?.rate(zero, t + after, state)
-        });
-        let is_back = self.evaluate(t, y).is_ok();
-        match at {
-            [Some(near), Some(beyond), Some(far)] if is_back => {
-                let sticking = self.watch.sticking();
-                sticking.is_some_and(|s| s.sticks(zero, [near, beyond, far]))
-            }
-            _ => false,
-        }
+        let is_same = !matches!(control, Control::ChartSwitched(_));
+        let sticks = sticking.holds(self, (t, y), is_same);
+        self.watch.give_back(sticking);
+        sticks
     }
 
     /// The accelerations at (q, v). Where all velocities are integrated the chart serves for this alone, and where it is bad
@@ -583,6 +554,13 @@ impl MultiplierFlow {
     }
 }
 
+impl Sides for MultiplierFlow {
+    fn state(&mut self, t: f64, y: &[f64]) -> Option<Place<'_>> {
+        self.evaluate(t, y).ok()?;
+        Some((&self.q, &self.v, &self.accelerations.a[..]))
+    }
+}
+
 impl System for MultiplierFlow {
     fn dimension(&self) -> usize {
         match self.kind {
@@ -687,7 +665,7 @@ impl System for MultiplierFlow {
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }
-        if self.watch.may_stick() && self.sticks(t, y, &control) {
+        if self.sticks(t, y, &control) {
             return Control::Stop(HaltReason::Custom(STUCK));
         }
         if let Some(follow) = &mut self.follow {

@@ -11,6 +11,15 @@ use chetaev_symbolic::{Expr, Function, Node};
 /// The reason of a halt where the motion sticks on a zero of what is under a sign.
 pub(crate) const STUCK: u32 = u32::MAX;
 
+/// Coordinates, velocities and accelerations.
+pub(crate) type Place<'a> = (&'a [f64], &'a [f64], &'a [f64]);
+
+/// A flow whose accelerations are asked at states beside the motion.
+pub(crate) trait Sides: chetaev_integrate::System {
+    /// At a state y; `None` where they have no value.
+    fn state(&mut self, t: f64, y: &[f64]) -> Option<Place<'_>>;
+}
+
 /// Functions under a sign in the forces, with their rates.
 #[derive(Clone, Debug)]
 pub(crate) struct Sticking {
@@ -58,7 +67,7 @@ struct Seen {
 
 /// A zero that the last step reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Zero {
+struct Zero {
     /// Of which function.
     index: usize,
     /// The function and its rate along the motion, at the accepted state.
@@ -70,7 +79,7 @@ const PLACES: [f64; 3] = [0.875, 1.125, 2.0];
 
 impl Zero {
     /// The times after which the motion would be at these places by its rate now, with the sign of the run.
-    pub(crate) fn times(&self) -> [f64; 3] {
+    fn times(&self) -> [f64; 3] {
         PLACES.map(|part| -part * self.here.0 / self.here.1)
     }
 
@@ -163,10 +172,52 @@ impl Sticking {
         self.functions.set_parameters(values)
     }
 
+    /// Whether the motion sticks at an accepted state; where it does not the state is kept, unless what follows is in other variables.
+    pub(crate) fn holds<F: Sides>(
+        &mut self,
+        flow: &mut F,
+        (t, y): (f64, &[f64]),
+        is_same: bool,
+    ) -> bool {
+        if !is_same {
+            self.last = None;
+        }
+        let sticks = self.is_driven_back(flow, t, y);
+        if !sticks {
+            self.last = Some((t, y.to_vec()));
+        }
+        sticks
+    }
+
+    /// Whether an accepted state lies beside a zero to which both sides lead back.
+    fn is_driven_back<F: Sides>(&mut self, flow: &mut F, t: f64, y: &[f64]) -> bool {
+        let mut rates = vec![0.0; y.len()];
+        if flow.derivative(t, y, &mut rates).is_err() {
+            return false;
+        }
+        let here = flow.state(t, y);
+        let Some(zero) = here.and_then(|state| self.look(t, state)) else {
+            return false;
+        };
+        let at = zero.times().map(|after| {
+            let there = y.iter().zip(&rates).map(|(y, rate)| y + after * rate);
+            let state = flow.state(t + after, &there.collect::<Vec<f64>>())?;
+            self.at(zero.index, t + after, state)
+        });
+        // The flow is at the accepted state again.
+        let is_back = flow.state(t, y).is_some();
+        match at {
+            [Some(near), Some(beyond), Some(far)] if is_back => {
+                self.sticks(zero, [near, beyond, far])
+            }
+            _ => false,
+        }
+    }
+
     /// Takes an accepted state with its accelerations into account: the zero of a function that the last step reached, where the motion is
     /// driven back to it. What is under a sign decides there between two accelerations, and Filippov's condition for the motion to stay is that
     /// both lead to the zero.
-    pub(crate) fn look(&mut self, t: f64, state: (&[f64], &[f64], &[f64])) -> Option<Zero> {
+    fn look(&mut self, t: f64, state: Place<'_>) -> Option<Zero> {
         let rates = (0..self.count).map(|index| self.at(index, t, state));
         let now: Vec<(f64, f64)> = rates.collect::<Option<_>>()?;
         self.before = std::mem::take(&mut self.seen);
@@ -186,18 +237,8 @@ impl Sticking {
         found
     }
 
-    /// The function of a zero with its rate at another state.
-    pub(crate) fn rate(
-        &mut self,
-        zero: Zero,
-        t: f64,
-        state: (&[f64], &[f64], &[f64]),
-    ) -> Option<(f64, f64)> {
-        self.at(zero.index, t, state)
-    }
-
     /// Whether the motion sticks on a zero, by what was found at its three places.
-    pub(crate) fn sticks(&mut self, zero: Zero, at: [(f64, f64); 3]) -> bool {
+    fn sticks(&mut self, zero: Zero, at: [(f64, f64); 3]) -> bool {
         if !zero.holds(at) {
             return false;
         }
@@ -236,18 +277,8 @@ impl Sticking {
         Some(seen.time_to_zero(found.arriving))
     }
 
-    /// Keeps an accepted state; `None` where what follows is in other variables.
-    pub(crate) fn keep(&mut self, last: Option<(f64, &[f64])>) {
-        self.last = last.map(|(t, y)| (t, y.to_vec()));
-    }
-
     /// A function with its rate at a state.
-    fn at(
-        &mut self,
-        index: usize,
-        t: f64,
-        (q, v, a): (&[f64], &[f64], &[f64]),
-    ) -> Option<(f64, f64)> {
+    fn at(&mut self, index: usize, t: f64, (q, v, a): Place<'_>) -> Option<(f64, f64)> {
         self.functions.evaluate(t, &[q, v]).ok()?;
         let slopes = &self.functions.group(2)[index * self.n..(index + 1) * self.n];
         let along: f64 = slopes.iter().zip(a).map(|(s, a)| s * a).sum();

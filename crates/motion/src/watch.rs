@@ -199,9 +199,14 @@ impl Watch {
         self.functions.set_parameters(values)
     }
 
-    /// Whether it is asked for where the motion sticks.
-    pub(crate) fn may_stick(&self) -> bool {
-        self.sticking.is_some()
+    /// What looks for where the motion sticks, to be given back.
+    pub(crate) fn take_sticking(&mut self) -> Option<Sticking> {
+        self.sticking.take()
+    }
+
+    /// Gives it back.
+    pub(crate) fn give_back(&mut self, sticking: Sticking) {
+        self.sticking = Some(sticking);
     }
 
     /// What is asked where the motion may stick.

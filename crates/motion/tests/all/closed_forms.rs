@@ -126,6 +126,38 @@ fn the_skate_crosses_four_singular_charts_on_its_cycloid() {
     }
 }
 
+/// A tether of a tenth of a metre fixed at seven thousand kilometres, where the coordinate is known to a nanometre: its end goes around with
+/// ten radians in the unit of time.
+#[test]
+fn a_place_that_is_given_has_its_gradient_however_far_away() {
+    let tether = |g: &Graph| {
+        let aside = g.sub(s(g, "x"), g.integer(7_000_000));
+        let squares = [g.powi(aside, 2), g.powi(s(g, "y"), 2)];
+        SystemParts {
+            coordinates: ["x", "y"].map(String::from).to_vec(),
+            parameters: vec![("m".into(), Some(g.one()))],
+            lagrangian: Some(g.add(&kinetic(g, &[("m", "x'"), ("m", "y'")]))),
+            constraints: vec![("tether".into(), g.sub(g.add(&squares), number(g, "0.01")))],
+            ..SystemParts::default()
+        }
+    };
+    let (routh, maggi) = run(
+        tether,
+        &[7_000_000.1, 0.0],
+        &[0.0, 1.0],
+        RunSettings::new(0.0, 0.5),
+    );
+    for run in [routh, maggi] {
+        assert!(run.ending.finished, "{}", run.ending.reason);
+        let last = run
+            .rows
+            .chunks(run.rows.len() / run.times.len())
+            .last()
+            .unwrap();
+        assert!((last[1] - 0.1 * 5.0_f64.sin()).abs() < 1e-6, "{last:?}");
+    }
+}
+
 fn appell_hamel(g: &Graph) -> SystemParts {
     let mut l = kinetic(g, &[("m", "x'"), ("m", "y'"), ("m", "z'")]);
     l.push(g.neg(g.mul(&[s(g, "m"), s(g, "g"), s(g, "z")])));
