@@ -60,3 +60,26 @@ def test_eigenvalues_are_those_of_numpy(seed: int) -> None:
         radius = max(abs(own), 1e-3 * size)
         bound = sum(abs(c) * radius**k for k, c in enumerate(reversed(coefficients)))
         assert abs(np.polyval(coefficients, own)) <= 1e-10 * bound, (seed, own)
+
+
+@pytest.mark.parametrize("seed", range(COUNT))
+def test_all_variables_have_the_same_eigenvalues_by_scipy(seed: int) -> None:
+    """E z' = A z in coordinates, velocities and multipliers: the finite eigenvalues of the pencil, by LAPACK's QZ method, are those of independent
+    variables, and the multipliers add infinite ones only."""
+    linalg = pytest.importorskip("scipy.linalg")
+    linear = System.from_text(model(seed)).linearize(all=True)
+    every = linear.to_dict()["all"]
+    A, E = (np.array([[float(sp.Rational(own)) for own in row] for row in every[name]]) for name in "AE")
+    found = linear.eigenvalues
+    assert found is not None
+    expected = [complex(own) for own in np.asarray(found).ravel()]
+    alpha, beta = linalg.eigvals(A, E, homogeneous_eigvals=True)
+    # Multipliers of a constraint of velocities have index two: two infinite eigenvalues for each, a root of the rounding away from infinity.
+    finite = [a / b for a, b in zip(alpha, beta) if abs(b) > 1e-5 * abs(a)]
+    constraints = sum(own.startswith("lambda_") for own in every["variables"])
+    assert len(finite) == len(expected) == len(A) - 2 * constraints, (seed, finite, expected)
+    size = max(1.0, max(abs(own) for own in expected))
+    for own in expected:
+        nearest = min(finite, key=lambda other: abs(other - own))
+        assert abs(nearest - own) < 1e-6 * size, (seed, own, finite)
+        finite.remove(nearest)
