@@ -28,6 +28,8 @@ pub struct Multiplicity {
     pub rank: usize,
     /// Simpler functions that vanish at the same states, for each part of the set.
     pub simpler: Vec<Vec<Expr>>,
+    /// Parameters with their values, where it is so for these and not for others.
+    pub values: Vec<(Expr, Expr)>,
 }
 
 /// Sums of squares within sums of squares are followed so deep.
@@ -39,17 +41,29 @@ const BUDGET: Budget = Budget {
 };
 
 impl Multiplicity {
-    /// That of a system of constraints of positions and velocities; `None` where the gradients are independent at some states, or nothing is
-    /// known.
+    /// That of a system of constraints of positions and velocities, for any values of the parameters or for those that the model states; `None`
+    /// where the gradients are independent at some states, or nothing is known.
     pub fn find(system: &System, terms: &MotionTerms, prover: &Prover) -> Option<Multiplicity> {
         if terms.order > 1 {
             return None;
         }
-        let finite = Question::new(system, terms, true);
-        let all = Question::new(system, terms, false);
-        finite
-            .and_then(|own| own.decide(prover))
-            .or_else(|| all?.decide(prover))
+        let mut stated = system.parameter_values();
+        let occurring = system
+            .graph
+            .reachable(&[terms.constraints.clone(), terms.jacobian.concat()].concat());
+        stated.retain(|(parameter, _)| occurring.contains(parameter));
+        let questions = [
+            (true, &[][..]),
+            (false, &[]),
+            (true, &stated),
+            (false, &stated),
+        ];
+        let mut asked = questions
+            .into_iter()
+            .filter(|(_, values)| values.is_empty() || !stated.is_empty());
+        asked.find_map(|(of_positions, values)| {
+            Question::new(system, terms, of_positions, values)?.decide(prover)
+        })
     }
 
     /// What it says of independence.
@@ -76,11 +90,19 @@ impl Multiplicity {
         let parts: Vec<String> = self.simpler.iter().map(part).collect();
         let (rank, names) = (self.rank, quoted(&self.names));
         let are = match self.names.len() {
-            1 => format!("the gradient of {names} vanishes wherever it holds"),
-            _ => format!("the gradients of {names} have the rank {rank} wherever these hold, although none follows from the others"),
+            1 => format!("the gradient of {names} vanishes wherever it holds: it has"),
+            _ => format!("the gradients of {names} have the rank {rank} wherever these hold, although none follows from the others: they have"),
+        };
+        let equal = |&(parameter, value): &(Expr, Expr)| {
+            format!("{} = {}", g.text(parameter), g.text(value))
+        };
+        let values: Vec<String> = self.values.iter().map(equal).collect();
+        let values = match &values[..] {
+            [] => String::new(),
+            all => format!("for {}, as the model states it, ", all.join(", ")),
         };
         format!(
-            "{are}: they have a multiple zero there, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
+            "{values}{are} a multiple zero there, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
             parts.join(" or ")
         )
     }
@@ -115,11 +137,19 @@ struct Question<'a> {
     gradients: Vec<Vec<Expr>>,
     /// What is to be determined, coordinates first.
     symbols: Vec<Symbol>,
+    /// Values of parameters.
+    values: Vec<(Expr, Expr)>,
 }
 
 impl<'a> Question<'a> {
-    /// `None` where there are no such constraints.
-    fn new(system: &'a System, terms: &MotionTerms, is_of_positions: bool) -> Option<Question<'a>> {
+    /// With values of parameters; `None` where there are no such constraints.
+    fn new(
+        system: &'a System,
+        terms: &MotionTerms,
+        is_of_positions: bool,
+        values: &[(Expr, Expr)],
+    ) -> Option<Question<'a>> {
+        let g = &system.graph;
         let stated = terms
             .constraint_index
             .iter()
@@ -132,15 +162,17 @@ impl<'a> Question<'a> {
             functions: Vec::new(),
             gradients: Vec::new(),
             symbols: system.coordinate_symbols(),
+            values: values.to_vec(),
         };
         for ((constraint, gradient), &f) in own {
             found.names.push(constraint.name.clone());
-            found.functions.push(if constraint.order == 0 {
+            let function = if constraint.order == 0 {
                 constraint.stated
             } else {
                 f
-            });
-            found.gradients.push(gradient.clone());
+            };
+            found.functions.push(g.substitute(function, values));
+            found.gradients.push(g.substitute_all(gradient, values));
         }
         if !is_of_positions {
             found.symbols.extend(system.velocity_symbols());
@@ -168,6 +200,7 @@ impl<'a> Question<'a> {
             names: self.names.clone(),
             rank,
             simpler: parts.into_iter().map(functions).collect(),
+            values: self.values.clone(),
         })
     }
 

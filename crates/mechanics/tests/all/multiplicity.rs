@@ -167,6 +167,22 @@ fn sums_of_squares_are_their_terms() {
     );
 }
 
+/// Circles of radius 1 with centres at the distance a touch for a = 2 alone, which the model states.
+#[test]
+fn values_that_are_stated_count() {
+    let system = system(&["x^2 + y^2 = 1", "(x - a)^2 + y^2 = 1"]);
+    let g = &system.graph;
+    let multiplicity = found(&system).unwrap();
+    assert_eq!(multiplicity.rank, 1);
+    let said = multiplicity.sentence(&system);
+    assert!(said.starts_with("for a = 2, "), "{said}");
+    let [simpler] = &multiplicity.simpler[..] else {
+        panic!("{said}");
+    };
+    let texts: Vec<String> = simpler.iter().map(|&e| g.text(e)).collect();
+    assert_eq!(texts, ["x - 1", "y"]);
+}
+
 /// Where an angle takes its largest cosine.
 #[test]
 fn angles_count_as_one_unknown() {
