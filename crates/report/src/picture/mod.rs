@@ -36,7 +36,7 @@ impl Default for View {
 }
 
 /// Why there is no picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum PictureError {
     /// The scene has no frame.
     Empty,
@@ -52,6 +52,15 @@ pub enum PictureError {
         /// Height.
         height: u32,
     },
+    /// A time at which nothing is known.
+    Time {
+        /// As asked.
+        time: f64,
+        /// The first of the scene.
+        first: f64,
+        /// The last.
+        last: f64,
+    },
     /// The encoder of the file failed.
     Encoding(String),
 }
@@ -66,6 +75,10 @@ impl std::fmt::Display for PictureError {
             PictureError::Size { width, height } => write!(
                 f,
                 "a picture of {width} by {height} pixels cannot be drawn: sides are from 1 to {LARGEST}"
+            ),
+            PictureError::Time { time, first, last } => write!(
+                f,
+                "nothing is known at t = {time}: the scene goes from t = {first} to {last}"
             ),
             PictureError::Encoding(problem) => write!(f, "the picture was not encoded: {problem}"),
         }
@@ -142,8 +155,12 @@ fn check(scene: &Animation, view: &View) -> Result<(), PictureError> {
             height: view.height,
         });
     }
-    if scene.times.is_empty() {
+    let (Some(&first), Some(&last)) = (scene.times.first(), scene.times.last()) else {
         return Err(PictureError::Empty);
+    };
+    let is_known = |time: f64| (first.min(last)..=first.max(last)).contains(&time);
+    if let Some(time) = view.time.filter(|&time| !is_known(time)) {
+        return Err(PictureError::Time { time, first, last });
     }
     for (place, element) in scene.elements.iter().enumerate() {
         let expected = element.shape.stride(scene.spatial) * scene.times.len();
@@ -226,6 +243,28 @@ mod tests {
         let film = gif(&scene(), &view, 1.0).unwrap_or_default();
         assert!(film.starts_with(b"GIF89a") && film.len() > 1000);
         assert_eq!(film.last(), Some(&0x3b));
+    }
+
+    #[test]
+    fn times_outside_of_the_scene_are_refused() {
+        for time in [11.0, -0.5, f64::NAN] {
+            let view = View {
+                time: Some(time),
+                ..View::default()
+            };
+            let refused = svg(&scene(), &view);
+            assert!(
+                matches!(
+                    refused,
+                    Err(PictureError::Time {
+                        first: 0.0,
+                        last: 10.0,
+                        ..
+                    })
+                ),
+                "{refused:?}"
+            );
+        }
     }
 
     #[test]
