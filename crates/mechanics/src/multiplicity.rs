@@ -131,7 +131,7 @@ pub fn prepared(system: &System) -> Result<Prepared, CharacteristicsError> {
 struct Question<'a> {
     system: &'a System,
     names: Vec<String>,
-    /// What vanishes.
+    /// What vanishes: those of positions, and with velocities their rates too.
     functions: Vec<Expr>,
     /// The gradients by the velocities.
     gradients: Vec<Vec<Expr>>,
@@ -139,6 +139,8 @@ struct Question<'a> {
     symbols: Vec<Symbol>,
     /// Values of parameters.
     values: Vec<(Expr, Expr)>,
+    /// How many constraints are of positions.
+    finite: usize,
 }
 
 impl<'a> Question<'a> {
@@ -163,15 +165,19 @@ impl<'a> Question<'a> {
             gradients: Vec::new(),
             symbols: system.coordinate_symbols(),
             values: values.to_vec(),
+            finite: 0,
         };
         for ((constraint, gradient), &f) in own {
             found.names.push(constraint.name.clone());
-            let function = if constraint.order == 0 {
-                constraint.stated
-            } else {
-                f
-            };
-            found.functions.push(g.substitute(function, values));
+            if constraint.order == 0 {
+                found
+                    .functions
+                    .push(g.substitute(constraint.stated, values));
+                found.finite += 1;
+            }
+            if !is_of_positions {
+                found.functions.push(g.substitute(f, values));
+            }
             found.gradients.push(g.substitute_all(gradient, values));
         }
         if !is_of_positions {
@@ -181,8 +187,11 @@ impl<'a> Question<'a> {
     }
 
     fn decide(&self, prover: &Prover) -> Option<Multiplicity> {
+        let (g, known) = (&self.system.graph, assumptions(self.system));
+        let simpler = |&e: &Expr| zero_set(g, e, &self.symbols, &known).unwrap_or_else(|| vec![e]);
+        let functions = self.functions.iter().flat_map(simpler).collect();
         let mut parts = Vec::new();
-        self.real_parts(self.functions.clone(), DEPTH, &mut parts)?;
+        self.real_parts(functions, DEPTH, &mut parts)?;
         let mut rank = 0;
         for part in &parts {
             let manifold = Manifold {
@@ -190,7 +199,7 @@ impl<'a> Question<'a> {
                 implicit: part.equations.clone(),
             };
             let own = prover.rank(self.system, &self.gradients, &manifold).ok()?;
-            if own.maximum >= part.codimension {
+            if own.maximum >= self.expected(part)? {
                 return None;
             }
             rank = rank.max(own.maximum);
@@ -202,6 +211,19 @@ impl<'a> Question<'a> {
             simpler: parts.into_iter().map(functions).collect(),
             values: self.values.clone(),
         })
+    }
+
+    /// The rank that regular constraints have on a part: its codimension among positions, or among velocities over them. `None` where the constraints
+    /// hide a condition on positions, which is another fault.
+    fn expected(&self, part: &Zeros) -> Option<usize> {
+        let (g, velocities) = (&self.system.graph, self.system.velocity_symbols());
+        let is_of_velocity = |(e, _): &&(Expr, Symbol)| g.contains_any(*e, &velocities);
+        let of_velocities = part.equations.iter().filter(is_of_velocity).count();
+        let asks_positions = self.symbols.len() == self.system.n();
+        match part.codimension - of_velocities {
+            positions if asks_positions => Some(positions),
+            positions => (positions <= self.finite).then_some(of_velocities),
+        }
     }
 
     /// The parts of the common zeros of functions that may have real points; `None` where they are not found.

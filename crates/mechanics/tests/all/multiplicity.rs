@@ -158,6 +158,12 @@ fn sums_of_squares_are_their_terms() {
         &[("x", 1), ("y", 1)],
         &[[1.0, 3.0, 4.0, 3.0, Z, 7.0, 1.0]],
     );
+    simple_at(
+        &["exp(x'^2 + y'^2) = 1"],
+        0,
+        &[("x", 1), ("y", 1)],
+        &[[1.0, 3.0, 4.0, Z, Z, 7.0, 1.0]],
+    );
     let speed = ["x'^2 + y'^2 = 1", "x' = 1"];
     simple_at(
         &speed,
@@ -198,12 +204,16 @@ fn angles_count_as_one_unknown() {
 /// Surfaces that cross, a constraint that follows from another one, and one whose gradient vanishes at single points only.
 #[test]
 fn simple_zeros_are_left_alone() {
-    let all: [&[&str]; 5] = [
+    let all: [&[&str]; 8] = [
         &["x^2 + y^2 + z^2 = 4", "x^2 + y^2 = 1"],
         &["x = 0", "x (1 + y^2) = 0"],
         &["x^2 + y^2 = z^2"],
         &["x' sin(z) = y' cos(z)", "z' = x'"],
         &["x y = 0"],
+        // These hide a condition on positions, which is another fault.
+        &["x' = y", "x = t"],
+        &["x' = 0", "y x' = z"],
+        &["x^2 + y^2 = 1", "x' = 0"],
     ];
     for constraints in all {
         assert_eq!(found(&system(constraints)), None, "{constraints:?}");
