@@ -18,7 +18,17 @@ const BUDGET: Budget = Budget {
 /// no normal form or the factorization is too large. Only a factorization into square-free, mutually prime parts is
 /// promised, not one into irreducible ones.
 pub fn factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<(Expr, u32)>> {
-    let (field, values) = normal_forms(graph, &[e], &Options::display(BUDGET)).ok()?;
+    factors_within(graph, e, symbols, BUDGET)
+}
+
+/// As [`factors`], with another budget: many expressions are asked, and most of them are no products.
+pub fn factors_within(
+    graph: &Graph,
+    e: Expr,
+    symbols: &[Symbol],
+    budget: Budget,
+) -> Option<Vec<(Expr, u32)>> {
+    let (field, values) = normal_forms(graph, &[e], &Options::display(budget)).ok()?;
     let factorization = values.first()?.numerator().factorize(field.meter()).ok()?;
     let list = factorization
         .factors

@@ -3,6 +3,8 @@
 use super::Solved;
 use crate::functional::Side;
 use crate::space::Jet;
+use chetaev_symbolic::factors::factors_within;
+use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Node, Verdict};
@@ -11,6 +13,14 @@ use std::collections::BTreeSet;
 
 /// So many products one after the other are taken apart.
 const MOST_PRODUCTS: usize = 4;
+
+/// Room to see that an equation is a product: hundreds are asked, and those that are have some tens of terms.
+const BUDGET: Budget = Budget {
+    terms: 500,
+    degree: 60,
+    bits: 2_000,
+    work: 100_000,
+};
 
 impl<'s> Solved<'s> {
     /// What cannot be where all equations hold: an equation that is left although it never holds, with its label.
@@ -182,7 +192,7 @@ impl<'s> Solved<'s> {
             Node::Product { factors, .. } => factors.iter().map(|&f| self.base(f)).collect(),
             _ => {
                 let symbols = g.symbols_in(&[e]);
-                let own = chetaev_symbolic::factors::factors(g, e, &symbols);
+                let own = factors_within(g, e, &symbols, BUDGET);
                 own.map_or(vec![e], |all| all.into_iter().map(|(f, _)| f).collect())
             }
         };
