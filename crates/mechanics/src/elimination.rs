@@ -45,9 +45,7 @@ impl Start {
         let value = g.evaluate_f64(&[e], &|s| Some(self.0.get(&s).copied().unwrap_or(0.7)));
         value.is_ok_and(|values| values.iter().all(|x| x.is_finite() && x.abs() > 1e-9))
     }
-}
 
-impl Start {
     /// Whether the rows of a matrix are independent there.
     pub(crate) fn is_independent(&self, g: &Graph, rows: &[Vec<Expr>]) -> bool {
         let point = |s: Symbol| Some(self.0.get(&s).copied().unwrap_or(0.7));

@@ -48,22 +48,15 @@ impl Multiplicity {
             return None;
         }
         let mut stated = system.parameter_values();
-        let occurring = system
-            .graph
-            .reachable(&[terms.constraints.clone(), terms.jacobian.concat()].concat());
+        let all = [terms.constraints.clone(), terms.jacobian.concat()].concat();
+        let occurring = system.graph.reachable(&all);
         stated.retain(|(parameter, _)| occurring.contains(parameter));
-        let questions = [
-            (true, &[][..]),
-            (false, &[]),
-            (true, &stated),
-            (false, &stated),
-        ];
-        let mut asked = questions
-            .into_iter()
-            .filter(|(_, values)| values.is_empty() || !stated.is_empty());
-        asked.find_map(|(of_positions, values)| {
-            Question::new(system, terms, of_positions, values)?.decide(prover)
-        })
+        let asked = |values: &[(Expr, Expr)]| {
+            [true, false].into_iter().find_map(|of_positions| {
+                Question::new(system, terms, of_positions, values)?.decide(prover)
+            })
+        };
+        asked(&[]).or_else(|| (!stated.is_empty()).then(|| asked(&stated)).flatten())
     }
 
     /// What it says of independence.
@@ -120,9 +113,7 @@ pub fn prepared(system: &System) -> Result<Prepared, CharacteristicsError> {
     }
     let terms = MotionTerms::new(system);
     match Multiplicity::find(system, &terms, &Prover::default()) {
-        Some(own) => Err(CharacteristicsError::Multiplicity {
-            sentence: own.sentence(system),
-        }),
+        Some(own) => Err(own.degenerate(system).error()),
         None => prepared,
     }
 }
@@ -141,6 +132,8 @@ struct Question<'a> {
     values: Vec<(Expr, Expr)>,
     /// How many constraints are of positions.
     finite: usize,
+    /// Whether it is asked of these alone.
+    is_of_positions: bool,
 }
 
 impl<'a> Question<'a> {
@@ -166,6 +159,7 @@ impl<'a> Question<'a> {
             symbols: system.coordinate_symbols(),
             values: values.to_vec(),
             finite: 0,
+            is_of_positions,
         };
         for ((constraint, gradient), &f) in own {
             found.names.push(constraint.name.clone());
@@ -219,9 +213,8 @@ impl<'a> Question<'a> {
         let (g, velocities) = (&self.system.graph, self.system.velocity_symbols());
         let is_of_velocity = |(e, _): &&(Expr, Symbol)| g.contains_any(*e, &velocities);
         let of_velocities = part.equations.iter().filter(is_of_velocity).count();
-        let asks_positions = self.symbols.len() == self.system.n();
         match part.codimension - of_velocities {
-            positions if asks_positions => Some(positions),
+            positions if self.is_of_positions => Some(positions),
             positions => (positions <= self.finite).then_some(of_velocities),
         }
     }

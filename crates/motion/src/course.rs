@@ -184,9 +184,7 @@ impl<'o> Course<'o> {
         if is_met {
             // Nothing is met: the run goes on from here.
             self.at = (t, solution.state.clone());
-            if solution.times.last() == Some(&t) && !settings.times.contains(&t) {
-                forget_last(&mut solution);
-            }
+            forget_unasked(&mut solution, settings);
             self.pieces.push(solution);
             return None;
         }
@@ -227,12 +225,7 @@ impl<'o> Course<'o> {
                 let forward = settings.t_end >= subject.start.t;
                 self.passed[index] = Some(Passed::at(t, forward, self.passed[index]));
                 if t != settings.t_end {
-                    // Nothing ends here: the row is kept only where it was asked for.
-                    if let Some(piece) = self.pieces.last_mut() {
-                        if piece.times.last() == Some(&t) && !settings.times.contains(&t) {
-                            forget_last(piece);
-                        }
-                    }
+                    self.go_on(settings);
                     return None;
                 }
             }
@@ -293,7 +286,10 @@ impl<'o> Course<'o> {
         if let Some(before) = before.and_then(|own| own.before()) {
             // A piece that goes beyond the zero after all is halved.
             rest = before.rest * 0.5_f64.powi(pieces.min(1) as i32);
-            self.leave_out_after(before.t, settings.t_end);
+            let is_later = |t: f64| (t - before.t) * (settings.t_end - before.t) > 0.0;
+            for piece in &mut self.pieces {
+                leave_out(piece, &is_later);
+            }
             self.at = (before.t, before.y);
         } else if is_beyond {
             rest = 0.0;
@@ -302,16 +298,12 @@ impl<'o> Course<'o> {
         let is_rounding =
             is_at_end || rest.abs() <= 1e-3 * settings.tolerance * (t - self.begun).abs();
         if is_rounding || pieces >= MOST_PIECES || !rest.is_finite() {
-            let text = flow.stuck().unwrap_or("what is under a sign");
+            let text = flow.sticking().and_then(|own| own.text());
+            let text = text.unwrap_or("what is under a sign");
             return Some(End::Vanished(stop::stuck(text, t + rest)));
         }
         if !is_beyond {
-            // Nothing ends here.
-            if let Some(piece) = self.pieces.last_mut() {
-                if piece.times.last() == Some(&t) && !settings.times.contains(&t) {
-                    forget_last(piece);
-                }
-            }
+            self.go_on(settings);
         }
         self.approach = Some(Approach {
             until: t + PIECE * rest,
@@ -320,14 +312,10 @@ impl<'o> Course<'o> {
         None
     }
 
-    /// Forgets rows and events after a time.
-    fn leave_out_after(&mut self, from: f64, t_end: f64) {
-        let is_later = |t: f64| (t - from) * (t_end - from) > 0.0;
-        for piece in &mut self.pieces {
-            while piece.times.last().is_some_and(|&t| is_later(t)) {
-                forget_last(piece);
-            }
-            piece.events.retain(|event| !is_later(event.t));
+    /// Nothing ends where the last piece did: its row is kept only where it was asked for.
+    fn go_on(&mut self, settings: &RunSettings) {
+        if let Some(piece) = self.pieces.last_mut() {
+            forget_unasked(piece, settings);
         }
     }
 
@@ -350,10 +338,7 @@ impl<'o> Course<'o> {
         let forward = settings.t_end >= from;
         let is_later = |a: f64, b: f64| if forward { a > b } else { a < b };
         for piece in self.pieces.iter_mut().chain([&mut *solution]) {
-            while piece.times.last().is_some_and(|&t| is_later(t, from)) {
-                forget_last(piece);
-            }
-            piece.events.retain(|event| !is_later(event.t, from));
+            leave_out(piece, &|t| is_later(t, from));
         }
         self.crossings
             .retain(|crossing| !is_later(crossing.t, from));
@@ -553,6 +538,21 @@ fn keep_until(solution: &mut Solution, t: f64) {
         .is_some_and(|&last| (last - t) * (solution.t - t).signum() > 0.0)
     {
         forget_last(solution);
+    }
+}
+
+/// Leaves out the rows and events of some times at the end of a piece.
+fn leave_out(piece: &mut Solution, is_later: &dyn Fn(f64) -> bool) {
+    while piece.times.last().is_some_and(|&t| is_later(t)) {
+        forget_last(piece);
+    }
+    piece.events.retain(|event| !is_later(event.t));
+}
+
+/// Forgets the row at the end of a piece, where nobody asked for it.
+fn forget_unasked(piece: &mut Solution, settings: &RunSettings) {
+    if piece.times.last() == Some(&piece.t) && !settings.times.contains(&piece.t) {
+        forget_last(piece);
     }
 }
 

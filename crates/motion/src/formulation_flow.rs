@@ -17,7 +17,7 @@ use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::scales::{power, Scales};
 use crate::series::RateSeries;
-use crate::sticking::{Place, Sides, Sticking, STUCK};
+use crate::sticking::{self, Place, Sides, Sticking, STUCK};
 use crate::turns::Turns;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
@@ -340,17 +340,6 @@ impl<'a> FormulationFlow<'a> {
         Ok(())
     }
 
-    /// Whether the motion sticks at an accepted state, on the zero of a function under a sign.
-    fn sticks(&mut self, t: f64, y: &[f64], control: &Control) -> bool {
-        let Some(mut sticking) = self.watch.take_sticking() else {
-            return false;
-        };
-        let is_same = !matches!(control, Control::ChartSwitched(_));
-        let sticks = sticking.holds(self, (t, y), is_same);
-        self.watch.give_back(sticking);
-        sticks
-    }
-
     /// Chooses a chart at (t, q, v) and enters it when it is better than `worst` by the hysteresis.
     fn rechoose(&mut self, t: f64, y: &mut [f64], factor: f64) -> Control {
         if !self.is_chart || self.numeric.r == 0 {
@@ -657,6 +646,10 @@ impl Sides for FormulationFlow<'_> {
         self.evaluate(t, y).ok()?;
         Some((&self.q, &self.v, self.current.motion.group(1)))
     }
+
+    fn looks(&mut self) -> &mut Option<Sticking> {
+        &mut self.watch.sticking
+    }
 }
 
 impl Flow for FormulationFlow<'_> {
@@ -732,7 +725,7 @@ impl Flow for FormulationFlow<'_> {
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.record(t, &q, &v);
         self.settle(t);
-        if self.sticks(t, y, &control) {
+        if sticking::sticks(self, (t, y), &control) {
             return Control::Stop(HaltReason::Custom(STUCK));
         }
         let vanished = self.watch.vanished();
@@ -827,12 +820,8 @@ impl WatchedFlow for FormulationFlow<'_> {
         self.watch.lost_mass(at, &q, &v, &a)
     }
 
-    fn stuck(&self) -> Option<&str> {
-        self.watch.stuck()
-    }
-
     fn sticking(&mut self) -> Option<&mut Sticking> {
-        self.watch.sticking()
+        self.watch.sticking.as_mut()
     }
 
     fn settled(&self) -> f64 {

@@ -21,7 +21,7 @@ use crate::numeric::{Completion, NumericSystem, States};
 use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::series::RateSeries;
-use crate::sticking::{Place, Sides, STUCK};
+use crate::sticking::{self, Place, Sides, Sticking, STUCK};
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
 
@@ -346,17 +346,6 @@ impl MultiplierFlow {
         Ok(())
     }
 
-    /// Whether the motion sticks at an accepted state, on the zero of a function under a sign.
-    fn sticks(&mut self, t: f64, y: &[f64], control: &Control) -> bool {
-        let Some(mut sticking) = self.watch.take_sticking() else {
-            return false;
-        };
-        let is_same = !matches!(control, Control::ChartSwitched(_));
-        let sticks = sticking.holds(self, (t, y), is_same);
-        self.watch.give_back(sticking);
-        sticks
-    }
-
     /// The accelerations at (q, v). Where all velocities are integrated the chart serves for this alone, and where it is bad
     /// another one is taken, for this state.
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
@@ -559,6 +548,10 @@ impl Sides for MultiplierFlow {
         self.evaluate(t, y).ok()?;
         Some((&self.q, &self.v, &self.accelerations.a[..]))
     }
+
+    fn looks(&mut self) -> &mut Option<Sticking> {
+        &mut self.watch.sticking
+    }
 }
 
 impl System for MultiplierFlow {
@@ -665,7 +658,7 @@ impl System for MultiplierFlow {
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }
-        if self.sticks(t, y, &control) {
+        if sticking::sticks(self, (t, y), &control) {
             return Control::Stop(HaltReason::Custom(STUCK));
         }
         if let Some(follow) = &mut self.follow {

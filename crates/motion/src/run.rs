@@ -274,12 +274,7 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
         None
     }
 
-    /// The function under a sign on whose zero the motion sticks.
-    fn stuck(&self) -> Option<&str> {
-        None
-    }
-
-    /// What looks for it.
+    /// What looks for where the motion sticks, where forces contain a sign.
     fn sticking(&mut self) -> Option<&mut Sticking> {
         None
     }

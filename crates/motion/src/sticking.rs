@@ -4,8 +4,9 @@
 
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
+use chetaev_integrate::{Control, System};
 use chetaev_mechanics::terms::freeze_accelerations;
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::MotionTerms;
 use chetaev_symbolic::{Expr, Function, Node};
 
 /// The reason of a halt where the motion sticks on a zero of what is under a sign.
@@ -15,9 +16,23 @@ pub(crate) const STUCK: u32 = u32::MAX;
 pub(crate) type Place<'a> = (&'a [f64], &'a [f64], &'a [f64]);
 
 /// A flow whose accelerations are asked at states beside the motion.
-pub(crate) trait Sides: chetaev_integrate::System {
+pub(crate) trait Sides: System {
     /// At a state y; `None` where they have no value.
     fn state(&mut self, t: f64, y: &[f64]) -> Option<Place<'_>>;
+
+    /// What looks for where the motion sticks, where forces contain a sign.
+    fn looks(&mut self) -> &mut Option<Sticking>;
+}
+
+/// Whether a motion sticks at an accepted state, after which the flow goes on as `control` says.
+pub(crate) fn sticks<F: Sides>(flow: &mut F, at: (f64, &[f64]), control: &Control) -> bool {
+    let Some(mut sticking) = flow.looks().take() else {
+        return false;
+    };
+    let is_same = !matches!(control, Control::ChartSwitched(_));
+    let sticks = sticking.holds(flow, at, is_same);
+    *flow.looks() = Some(sticking);
+    sticks
 }
 
 /// Functions under a sign in the forces, with their rates.
@@ -107,7 +122,7 @@ impl Sticking {
     /// # Errors
     /// [`FunctionsError`].
     pub(crate) fn new(
-        system: &System,
+        system: &chetaev_mechanics::System,
         terms: &MotionTerms,
         binding: &Binding,
     ) -> Result<Option<Sticking>, FunctionsError> {
@@ -173,12 +188,7 @@ impl Sticking {
     }
 
     /// Whether the motion sticks at an accepted state; where it does not the state is kept, unless what follows is in other variables.
-    pub(crate) fn holds<F: Sides>(
-        &mut self,
-        flow: &mut F,
-        (t, y): (f64, &[f64]),
-        is_same: bool,
-    ) -> bool {
+    fn holds<F: Sides>(&mut self, flow: &mut F, (t, y): (f64, &[f64]), is_same: bool) -> bool {
         if !is_same {
             self.last = None;
         }

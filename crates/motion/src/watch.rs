@@ -63,7 +63,7 @@ pub struct Watch {
     /// Whether all are, with the present parameters: then nothing is watched.
     is_idle: bool,
     /// Functions under a sign in the forces, on whose zeros the motion may stick.
-    sticking: Option<Sticking>,
+    pub(crate) sticking: Option<Sticking>,
 }
 
 /// Only the neighbourhood of zero is looked at: values below this fraction of the largest seen.
@@ -197,26 +197,6 @@ impl Watch {
             sticking.set_parameters(values)?;
         }
         self.functions.set_parameters(values)
-    }
-
-    /// What looks for where the motion sticks, to be given back.
-    pub(crate) fn take_sticking(&mut self) -> Option<Sticking> {
-        self.sticking.take()
-    }
-
-    /// Gives it back.
-    pub(crate) fn give_back(&mut self, sticking: Sticking) {
-        self.sticking = Some(sticking);
-    }
-
-    /// What is asked where the motion may stick.
-    pub(crate) fn sticking(&mut self) -> Option<&mut Sticking> {
-        self.sticking.as_mut()
-    }
-
-    /// The function on whose zero the motion sticks.
-    pub(crate) fn stuck(&self) -> Option<&str> {
-        self.sticking.as_ref()?.text()
     }
 
     /// Forgets the values seen, for a run from (t, q, v).

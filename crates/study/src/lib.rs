@@ -37,6 +37,7 @@ pub mod picture;
 mod placed;
 mod plain;
 mod precise;
+mod preparation;
 pub mod record;
 pub mod registry;
 pub mod sensitivity;

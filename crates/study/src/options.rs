@@ -1,6 +1,6 @@
 //! What is asked of a study, and what it may use from outside.
 
-use crate::study::Decided;
+use chetaev_mechanics::claims::Decided;
 use chetaev_mechanics::{Claim, Group};
 use chetaev_model::model::Precision;
 use chetaev_motion::DoubleDouble;

@@ -40,12 +40,9 @@ pub(crate) enum NoMotion {
     /// Nobody stated where it begins.
     #[error("no motion was computed, as it would begin where all coordinates and velocities are zero: {0}; state [initial] data")]
     AtZero(InitialError),
-    /// The constraints hold with multiplicity.
-    #[error("{sentence}")]
-    Multiplicity {
-        /// What holds, with simpler constraints.
-        sentence: String,
-    },
+    /// The constraints determine none.
+    #[error(transparent)]
+    Constraints(CharacteristicsError),
     /// Derivatives of higher order are not determined.
     #[error("no motion was computed: {0}")]
     Undetermined(StudyError),

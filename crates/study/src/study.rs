@@ -12,12 +12,10 @@ use crate::notices::{
     rank_falls, stiffness, unused_multipliers,
 };
 use crate::options::{Hooks, StudyOptions};
+use crate::preparation::{prepare, wrong_characteristics};
 use crate::record;
 use crate::registry::registry;
-use crate::start::{
-    add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, NoMotion,
-    Start,
-};
+use crate::start::{asks_for_motion, of_start, settings, sharpest, Start};
 use crate::watch::{ending, in_time, interruptible, is_interrupted, watched};
 use crate::witness::{self, Witness};
 use chetaev_geometry::noether::claims::FAMILY;
@@ -25,16 +23,13 @@ use chetaev_geometry::noether::found::{found, is_function_of};
 use chetaev_geometry::noether::search::Integral;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Progress;
-use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::claims::model::ConstraintsIndependent;
 use chetaev_mechanics::claims::strata::{Grounds, Strata};
+pub use chetaev_mechanics::claims::Decided;
 use chetaev_mechanics::components::covered;
 use chetaev_mechanics::formulations::{Maggi, Routh};
-use chetaev_mechanics::multiplicity::Multiplicity;
-use chetaev_mechanics::sample::rank_near;
-use chetaev_mechanics::MotionTerms;
 use chetaev_mechanics::{
     formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, Registry, System,
     FORMULATIONS,
@@ -50,9 +45,6 @@ use chetaev_symbolic::meter::{within, Stopped, Work, UNITS_PER_SECOND};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
 use std::sync::Arc;
-
-/// A claim about a system with its verdict.
-pub type Decided = chetaev_model::decision::Decided<Arc<Finding>>;
 
 /// A computed motion with what is known about it.
 #[derive(Debug)]
@@ -132,8 +124,9 @@ impl Outcome {
 /// The first problem.
 pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
     let options = StudyOptions::default();
+    check_expectations(model, &registry())?;
     let (system, prepared, start) = prepare(model, &options, hooks)?;
-    refuse_degenerate(&prepared)?;
+    prepared.has_motions()?;
     if let Some(detail) = wrong_characteristics(&system, &prepared) {
         return Err(StudyError::WrongCharacteristics { detail });
     }
@@ -155,155 +148,6 @@ fn check_step(settings: &RunSettings) -> Result<(), StudyError> {
         Err(StudyError::StepMissing {
             method: settings.method.clone(),
         })
-    }
-}
-
-/// The system, its terms with independent constraints, and the start of the motion or why there is none.
-pub(crate) fn prepare(
-    model: &Model,
-    options: &StudyOptions,
-    hooks: &mut Hooks<'_>,
-) -> Result<(System, Prepared, Result<Start, NoMotion>), StudyError> {
-    check_expectations(model, &registry())?;
-    let system = System::from_model(model)?;
-    check_initial_data(model, &system)?;
-    (hooks.progress)("deriving", None);
-    let terms = MotionTerms::new(&system);
-    match with_motions(model, &system, &terms, options) {
-        Ok((prepared, start)) => Ok((system, prepared, start)),
-        Err(problem) if is_of_the_constraints(&problem) => {
-            match Multiplicity::find(&system, &terms, &Prover::default()) {
-                Some(own) => {
-                    let degenerate = own.degenerate(&system);
-                    let sentence = degenerate.found.detail.clone();
-                    let prepared = Prepared {
-                        terms,
-                        selection: Selection::none(),
-                        degenerate: Some(degenerate),
-                    };
-                    Ok((system, prepared, Err(NoMotion::Multiplicity { sentence })))
-                }
-                None => Err(problem),
-            }
-        }
-        Err(problem) => Err(problem),
-    }
-}
-
-/// Whether a motion cannot begin by the constraints and where they hold.
-fn is_of_the_constraints(problem: &StudyError) -> bool {
-    matches!(
-        problem,
-        StudyError::Initial(_) | StudyError::Characteristics(_) | StudyError::RankDeficient { .. }
-    )
-}
-
-/// A system without motions is refused by what asks for one.
-pub(crate) fn refuse_degenerate(prepared: &Prepared) -> Result<(), CharacteristicsError> {
-    match &prepared.degenerate {
-        None => Ok(()),
-        Some(own) => Err(CharacteristicsError::Multiplicity {
-            sentence: own.found.detail.clone(),
-        }),
-    }
-}
-
-/// Independent constraints, and the start of the motion or why there is none.
-fn with_motions(
-    model: &Model,
-    system: &System,
-    terms: &MotionTerms,
-    options: &StudyOptions,
-) -> Result<(Prepared, Result<Start, NoMotion>), StudyError> {
-    let start = start_of_motion(model, system, terms, options)?;
-    let selection = match chetaev_mechanics::characteristics::select(system, terms) {
-        Ok(selection) => selection,
-        Err(error) => match &start {
-            Ok(found) if terms.order == 1 => found.selection(),
-            _ => return Err(error.into()),
-        },
-    };
-    let selection = on_component_of(system, terms, start.as_ref().ok(), selection);
-    if let (Ok(start), 1) = (&start, terms.order) {
-        check_rank(start, selection.rows.len())?;
-    }
-    let prepared = Prepared {
-        terms: terms.clone(),
-        selection,
-        degenerate: None,
-    };
-    prepared.left_out(system)?;
-    let mut start = start;
-    if let (Ok(found), true) = (&mut start, prepared.terms.order > 1) {
-        match add_jets(
-            model,
-            system,
-            (&prepared.terms, &prepared.selection),
-            found,
-            options,
-        ) {
-            Err(StudyError::Jets(problem)) => {
-                let problem = match undetermined(system, &prepared) {
-                    Some(detail) => StudyError::Undetermined { detail },
-                    None => StudyError::Jets(problem),
-                };
-                if asks_for_motion(model) {
-                    return Err(problem);
-                }
-                start = Err(NoMotion::Undetermined(problem));
-            }
-            outcome => outcome?,
-        }
-    }
-    Ok((prepared, start))
-}
-
-/// The selection on the component of the constraint set on which the motion begins, where the rank there is another than that of the
-/// state that was sampled.
-fn on_component_of(
-    system: &System,
-    terms: &MotionTerms,
-    start: Option<&Start>,
-    selection: Selection,
-) -> Selection {
-    let Some(start) = start.filter(|_| terms.order == 1) else {
-        return selection;
-    };
-    let chart = &start.start.chart;
-    if chart.rank() == selection.rows.len() {
-        return selection;
-    }
-    let g = &system.graph;
-    let known = start.binding.parameters.iter().copied();
-    let moving = start.binding.variables.iter().copied();
-    let values = [&[start.start.t][..], &start.start.q, &start.start.v].concat();
-    let state = known.chain(moving.zip(values)).collect();
-    let laws = |e| g.substitute_all(&[e], &start.binding.controls)[0];
-    let is_plain = terms.jacobian.concat().into_iter().all(|e| laws(e) == e);
-    match is_plain.then(|| rank_near(system, terms, &state)).flatten() {
-        Some(rank) if rank == chart.rank() => start.selection(),
-        _ => selection,
-    }
-}
-
-/// Why constraints and equations of motion determine no derivatives of order m at any state, if that is so.
-fn undetermined(system: &System, prepared: &Prepared) -> Option<String> {
-    refuted(system, prepared, "order.determined")
-}
-
-/// Why the characteristics that the model states do not parametrize what the constraints admit, if that is so.
-fn wrong_characteristics(system: &System, prepared: &Prepared) -> Option<String> {
-    system.characteristics.as_ref()?;
-    refuted(system, prepared, "order.characteristics")
-}
-
-fn refuted(system: &System, prepared: &Prepared, claim: &str) -> Option<String> {
-    let known = registry();
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(system, terms, selection, &known, Prover::default());
-    match &cx.finding(claim).verdict {
-        Verdict::Refuted(counterexample) => Some(counterexample.detail.clone()),
-        _ => None,
     }
 }
 
@@ -331,9 +175,10 @@ pub fn study_telling(
 ) -> Result<Study, StudyError> {
     let known = registry();
     let began = interruptible(hooks, |hooks| {
+        check_expectations(&model, &known)?;
         let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
         if !options.claims.wants_claim(&ConstraintsIndependent) {
-            refuse_degenerate(&prepared)?;
+            prepared.has_motions()?;
         }
         let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
         if let Some(detail) = wrong_characteristics(&system, &prepared) {
@@ -697,23 +542,6 @@ fn last_time(run: &Run, t_end: f64) -> f64 {
         t_end
     } else {
         run.times.last().copied().unwrap_or(t_end)
-    }
-}
-
-/// Coordinates and velocities determine a system of first order; other initial data are refused, not passed over.
-fn check_initial_data(model: &Model, system: &System) -> Result<(), StudyError> {
-    if system.constraints.iter().any(|c| c.order > 1) {
-        return Ok(());
-    }
-    match model.initial.values.keys().find(|(_, order)| *order > 1) {
-        None => Ok(()),
-        Some(&(i, order)) => Err(StudyError::UnusedInitialValue {
-            name: format!(
-                "{}{}",
-                model.coordinates[i].name,
-                "'".repeat(order as usize)
-            ),
-        }),
     }
 }
 

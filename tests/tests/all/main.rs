@@ -41,6 +41,7 @@ mod special_values;
 mod stability;
 mod start;
 mod strata;
+mod sweep_files;
 mod symmetries;
 mod textbook;
 mod textbook_formulations;

@@ -114,6 +114,9 @@ pub struct Finding {
     pub formulas: Vec<Formula>,
 }
 
+/// A claim about a system with its verdict.
+pub type Decided = chetaev_model::decision::Decided<Arc<Finding>>;
+
 impl Found for Finding {
     fn verdict(&self) -> &Verdict {
         &self.verdict
@@ -406,9 +409,15 @@ impl<'a> Context<'a> {
     ) -> Context<'a> {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(system, terms, selection, registry, prover);
-        match &prepared.degenerate {
-            Some(degenerate) => cx.with(Arc::new(degenerate.clone())),
-            None => cx,
+        cx.where_degenerate(prepared)
+    }
+
+    /// Says nothing but that, where the constraints of the system that was written determine no motion.
+    #[must_use]
+    pub fn where_degenerate(self, written: &Prepared) -> Context<'a> {
+        match &written.degenerate {
+            Some(degenerate) => self.with(Arc::new(degenerate.clone())),
+            None => self,
         }
     }
 
@@ -647,6 +656,15 @@ pub struct Degenerate {
     pub found: Counterexample,
 }
 
+impl Degenerate {
+    /// As what asks for a motion hears it.
+    pub fn error(&self) -> characteristics::CharacteristicsError {
+        characteristics::CharacteristicsError::Multiplicity {
+            sentence: self.found.detail.clone(),
+        }
+    }
+}
+
 impl Prepared {
     /// Derives terms and chooses independent constraints and velocities.
     ///
@@ -660,6 +678,16 @@ impl Prepared {
             selection,
             degenerate: None,
         })
+    }
+
+    /// Refuses a system whose constraints determine no motion.
+    ///
+    /// # Errors
+    /// [`Multiplicity`](characteristics::CharacteristicsError::Multiplicity).
+    pub fn has_motions(&self) -> Result<(), characteristics::CharacteristicsError> {
+        self.degenerate
+            .as_ref()
+            .map_or(Ok(()), |own| Err(own.error()))
     }
 
     /// The constraints that are left out because they follow from the others.

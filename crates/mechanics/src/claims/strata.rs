@@ -178,10 +178,7 @@ impl<'a> Strata<'a> {
         let make = move |system: &'a System, prepared: &'a Prepared| {
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(system, terms, selection, registry, prover());
-            with(match &grounds.written.1.degenerate {
-                Some(degenerate) => cx.with(Arc::new(degenerate.clone())),
-                None => cx,
-            })
+            with(cx.where_degenerate(grounds.written.1))
         };
         let mut strata = Strata {
             grounds,

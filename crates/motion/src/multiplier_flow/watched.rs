@@ -77,12 +77,8 @@ impl WatchedFlow for MultiplierFlow {
         Some(row)
     }
 
-    fn stuck(&self) -> Option<&str> {
-        self.watch.stuck()
-    }
-
     fn sticking(&mut self) -> Option<&mut Sticking> {
-        self.watch.sticking()
+        self.watch.sticking.as_mut()
     }
 
     fn event_series(

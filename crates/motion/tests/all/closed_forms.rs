@@ -3,11 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{formulation, Prepared, System, SystemParts};
-use chetaev_motion::{
-    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, StateKind, Subject,
-    Watcher,
-};
+use crate::common::{last_row, with_subject};
+use chetaev_mechanics::{formulation, System, SystemParts};
+use chetaev_motion::{Run, RunSettings, StateKind, Watcher};
 use chetaev_symbolic::{Expr, Graph};
 use std::sync::Arc;
 
@@ -48,35 +46,9 @@ fn skate(g: &Graph) -> SystemParts {
     }
 }
 
-/// What `work` makes of a system at a start that is given completely.
-fn with_subject<R>(
-    parts: impl Fn(&Graph) -> SystemParts,
-    q: &[f64],
-    v: &[f64],
-    work: impl FnOnce(&Subject<'_>) -> R,
-) -> R {
+fn system(parts: impl Fn(&Graph) -> SystemParts) -> System {
     let g = Arc::new(Graph::new());
-    let system = System::new(g.clone(), parts(&g)).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-        q_fixed: vec![true; q.len()],
-        v_fixed: vec![true; v.len()],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    work(&Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    })
+    System::new(g.clone(), parts(&g)).unwrap()
 }
 
 fn run(
@@ -85,7 +57,7 @@ fn run(
     v: &[f64],
     settings: RunSettings,
 ) -> (Run, Run) {
-    with_subject(parts, q, v, |subject| {
+    with_subject(&system(parts), (q, v), |subject| {
         let routh = subject.routh(&settings, &mut Watcher::default()).unwrap();
         let maggi = formulation("maggi").unwrap();
         let maggi = subject
@@ -149,11 +121,7 @@ fn a_place_that_is_given_has_its_gradient_however_far_away() {
     );
     for run in [routh, maggi] {
         assert!(run.ending.finished, "{}", run.ending.reason);
-        let last = run
-            .rows
-            .chunks(run.rows.len() / run.times.len())
-            .last()
-            .unwrap();
+        let last = last_row(&run);
         assert!((last[1] - 0.1 * 5.0_f64.sin()).abs() < 1e-6, "{last:?}");
     }
 }
@@ -280,7 +248,7 @@ fn branches_that_meet_stop_the_run() {
 fn a_start_that_the_variables_do_not_give_back_is_refused() {
     let by = |name: &str| {
         let (q, v) = ([0.0, 0.0, std::f64::consts::FRAC_PI_2], [0.0, 0.5, 1.0]);
-        with_subject(skate, &q, &v, |subject| {
+        with_subject(&system(skate), (&q, &v), |subject| {
             subject.by(
                 formulation(name).unwrap(),
                 &RunSettings::new(0.0, 1.0),
@@ -321,7 +289,7 @@ fn series_follow_the_cycloid_to_rounding() {
                 project: true,
                 ..by_series(10.0)
             };
-            let motion = with_subject(skate, &[0.0; 3], &[0.0, 0.0, w], |subject| {
+            let motion = with_subject(&system(skate), (&[0.0; 3], &[0.0, 0.0, w]), |subject| {
                 let own = formulation(name).unwrap();
                 subject.by(own, &settings, &mut Watcher::default()).unwrap()
             });
@@ -375,7 +343,7 @@ fn series_through_nonlinear_and_moving_constraints() {
 fn errors_follow_the_tolerance_past_singular_places_of_charts() {
     let (t_end, start) = (100.0, [0.0, 0.0, 1.3]);
     let drift = |method: &str, name: &str, state, tolerance: f64| {
-        with_subject(skate, &[0.0; 3], &start, |subject| {
+        with_subject(&system(skate), (&[0.0; 3], &start), |subject| {
             let settings = RunSettings {
                 method: method.into(),
                 tolerance,
@@ -421,7 +389,7 @@ fn errors_follow_the_tolerance_past_singular_places_of_charts() {
 fn series_keep_the_energy_of_a_long_run() {
     let start = [0.0, 0.0, 1.3];
     let followed = |settings: &RunSettings| {
-        with_subject(skate, &[0.0; 3], &start, |subject| {
+        with_subject(&system(skate), (&[0.0; 3], &start), |subject| {
             let energy = subject.system.energy();
             let settings = RunSettings {
                 follow: vec![energy],

@@ -3,11 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{formulation, Prepared, System, SystemParts};
-use chetaev_motion::{
-    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, StateKind, Subject,
-    Watcher,
-};
+use crate::common::with_subject;
+use chetaev_mechanics::{formulation, System, SystemParts};
+use chetaev_motion::{Run, RunSettings, StateKind, Watcher};
 use chetaev_symbolic::{Expr, Graph};
 use std::sync::Arc;
 
@@ -58,28 +56,10 @@ fn run(
 ) -> Run {
     let g = Arc::new(Graph::new());
     let system = System::new(g.clone(), parts(&g)).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-        q_fixed: vec![true; q.len()],
-        v_fixed: vec![true; v.len()],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
     let form = formulation(form).unwrap();
-    subject.by(form, settings, &mut Watcher::default()).unwrap()
+    with_subject(&system, (q, v), |subject| {
+        subject.by(form, settings, &mut Watcher::default()).unwrap()
+    })
 }
 
 /// Ways to compute one motion, with the error allowed at the end.

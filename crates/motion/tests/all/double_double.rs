@@ -1,12 +1,13 @@
 //! Motions in double-double arithmetic against closed forms, evaluated in the same arithmetic.
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
+use crate::common::with_data;
 use chetaev_integrate::{Direction, IntegrateError};
-use chetaev_mechanics::{formulation, Prepared, System, SystemParts};
+use chetaev_mechanics::{formulation, System, SystemParts};
 use chetaev_motion::double_double::{along, number};
 use chetaev_motion::{
-    consistent_state, Binding, DoubleDouble, EventWatched, InitialData, NumericSystem, Precise,
-    PreciseRows, Run, RunError, RunSettings, Subject, Watcher,
+    DoubleDouble, EventWatched, InitialData, Precise, PreciseRows, Run, RunError, RunSettings,
+    Subject, Watcher,
 };
 use chetaev_symbolic::{rational, Expr, Graph};
 use std::sync::Arc;
@@ -131,9 +132,6 @@ fn with_subject<R>(
 ) -> R {
     let g = Arc::new(Graph::new());
     let system = System::new(g.clone(), parts(&g)).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
     let data = InitialData {
         t: asked.span.0.high(),
         q: asked.near.0.clone(),
@@ -142,7 +140,6 @@ fn with_subject<R>(
         v_fixed: asked.v.iter().map(Option::is_some).collect(),
         project: false,
     };
-    let start = consistent_state(&mut numeric, &data).unwrap();
     let parameters = system.parameters.iter();
     let parameters = parameters
         .map(|p| number(&g, p.value.unwrap()).unwrap())
@@ -154,15 +151,9 @@ fn with_subject<R>(
         follow: vec![system.energy()],
         ..RunSettings::new(from, to)
     };
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
-    work(&subject, settings, parameters)
+    with_data(&system, &data, |subject| {
+        work(subject, settings, parameters)
+    })
 }
 
 /// The settings in double-double.

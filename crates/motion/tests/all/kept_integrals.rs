@@ -2,11 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{Prepared, System, SystemParts};
+use crate::common::with_subject;
+use chetaev_mechanics::{System, SystemParts};
 use chetaev_motion::keep::KeptReport;
-use chetaev_motion::{
-    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, Subject, Watcher,
-};
+use chetaev_motion::{Run, RunSettings, Watcher};
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::{Expr, Function, Graph};
 use std::sync::Arc;
@@ -32,30 +31,12 @@ fn circle(
     };
     let keep = quantities(&g, &plane, g.add(&[kinetic, potential]));
     let system = System::new(g.clone(), parts).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: vec![1.0, 0.0],
-        v: vec![0.0, 1.0],
-        q_fixed: vec![true; 2],
-        v_fixed: vec![true; 2],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
     let mut settings = RunSettings::new(0.0, 10.0);
     settings.keep = keep;
     change(&mut settings);
-    subject.routh(&settings, &mut Watcher::default()).unwrap()
+    with_subject(&system, (&[1.0, 0.0], &[0.0, 1.0]), |subject| {
+        subject.routh(&settings, &mut Watcher::default()).unwrap()
+    })
 }
 
 fn report(run: &Run) -> &KeptReport {
@@ -146,30 +127,12 @@ fn masses_with_a_law_of_their_own_are_not_moved() {
         ..SystemParts::default()
     };
     let system = System::new(g.clone(), parts).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: vec![1.0, 2.0],
-        v: vec![0.0],
-        q_fixed: vec![true; 2],
-        v_fixed: vec![true],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
     let mut settings = RunSettings::new(0.0, 10.0);
     settings.tolerance = 1e-6;
     settings.keep = vec![energy];
-    let run = subject.routh(&settings, &mut Watcher::default()).unwrap();
+    let run = with_subject(&system, (&[1.0, 2.0], &[0.0]), |subject| {
+        subject.routh(&settings, &mut Watcher::default()).unwrap()
+    });
     let report = report(&run);
     assert_eq!(
         report.failed.count + report.left_out[0].count,

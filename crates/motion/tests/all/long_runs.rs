@@ -2,10 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{Prepared, System, SystemParts};
-use chetaev_motion::{
-    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, Subject, Watcher,
-};
+use crate::common::with_subject;
+use chetaev_mechanics::{System, SystemParts};
+use chetaev_motion::{Run, RunSettings, Watcher};
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::{Expr, Graph};
 use std::sync::Arc;
@@ -64,26 +63,6 @@ fn run(parts: impl Fn(&Graph) -> (SystemParts, Expr), (q, v): (&[f64], &[f64]), 
     let g = Arc::new(Graph::new());
     let (parts, energy) = parts(&g);
     let system = System::new(g.clone(), parts).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-        q_fixed: vec![true; q.len()],
-        v_fixed: vec![true; v.len()],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
     let settings = RunSettings {
         method: "taylor".into(),
         tolerance: 1e-15,
@@ -92,7 +71,9 @@ fn run(parts: impl Fn(&Graph) -> (SystemParts, Expr), (q, v): (&[f64], &[f64]), 
         follow: vec![energy],
         ..RunSettings::new(0.0, t_end)
     };
-    subject.routh(&settings, &mut Watcher::default()).unwrap()
+    with_subject(&system, (q, v), |subject| {
+        subject.routh(&settings, &mut Watcher::default()).unwrap()
+    })
 }
 
 /// Rounding to N steps of a random walk, of a unit in the last place each.

@@ -3,10 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{formulation, Prepared, System, SystemParts};
-use chetaev_motion::{
-    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, Subject, Watcher,
-};
+use crate::common::{last_row, with_subject};
+use chetaev_mechanics::{formulation, System, SystemParts};
+use chetaev_motion::{Run, RunSettings, Watcher};
 use chetaev_symbolic::{rational, Expr, Function, Graph};
 use std::sync::Arc;
 
@@ -39,28 +38,10 @@ fn run(
         ..SystemParts::default()
     };
     let system = System::new(g.clone(), parts).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-        q_fixed: vec![true; q.len()],
-        v_fixed: vec![true; v.len()],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        selection: &prepared.selection,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
     let form = formulation(form).unwrap();
-    subject.by(form, settings, &mut Watcher::default()).unwrap()
+    with_subject(&system, (q, v), |subject| {
+        subject.by(form, settings, &mut Watcher::default()).unwrap()
+    })
 }
 
 fn settings(method: &str, tolerance: f64, t_end: f64) -> RunSettings {
@@ -182,10 +163,6 @@ fn what_is_continuous_or_crosses_does_not_stick() {
     let with = settings("dormand-prince-853", 1e-9, 8.0 * 2.0_f64.sqrt());
     let found = run(&[("x", 1)], relay, (&[1.0], &[0.0]), "routh", &with);
     assert!(found.ending.finished, "{}", found.ending.reason);
-    let last = found
-        .rows
-        .chunks(found.rows.len() / found.times.len())
-        .last()
-        .unwrap();
+    let last = last_row(&found);
     assert!((last[0] - 1.0).abs() < 1e-6, "{last:?}");
 }

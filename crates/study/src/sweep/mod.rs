@@ -11,10 +11,12 @@ mod whole;
 
 use crate::derivation::check_applies;
 use crate::error::StudyError;
+use crate::expectations::check_expectations;
 use crate::options::{Hooks, StudyOptions};
+use crate::preparation::prepare;
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{components_are_apart, keeps, kept, movable, prepare, refuse_degenerate};
+use crate::study::{components_are_apart, keeps, kept, movable};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};
@@ -109,8 +111,9 @@ impl Sweep {
         options: SweepOptions,
         hooks: &mut Hooks<'_>,
     ) -> Result<Sweep, StudyError> {
+        check_expectations(&base, &registry())?;
         let (system, prepared, start) = prepare(&base, &options.study, hooks)?;
-        refuse_degenerate(&prepared)?;
+        prepared.has_motions()?;
         let start = start.map_err(|why| StudyError::NoMotion {
             why: why.to_string(),
         })?;
