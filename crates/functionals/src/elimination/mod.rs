@@ -69,7 +69,6 @@ pub struct Solved<'s> {
     ranking: Option<Ranking>,
     /// Whether rules led back to each other.
     is_circular: Cell<bool>,
-    judged: RefCell<BTreeMap<Expr, bool>>,
     /// Whether expressions vanish where others do.
     together: RefCell<BTreeMap<(Expr, Expr), bool>>,
     /// The factors of equations.
@@ -179,7 +178,6 @@ impl<'s> Solved<'s> {
             open: RefCell::default(),
             ranking: Some(Ranking::by_order(space)),
             is_circular: Cell::new(false),
-            judged: RefCell::default(),
             together: RefCell::default(),
             factors: RefCell::default(),
             case: Vec::new(),
@@ -410,15 +408,7 @@ impl<'s> Solved<'s> {
 
     /// Whether an expression is proved to vanish identically.
     fn vanishes(&self, e: Expr) -> bool {
-        if self.space.graph.is_zero(e) {
-            return true;
-        }
-        if let Some(&known) = self.judged.borrow().get(&e) {
-            return known;
-        }
-        let found = self.space.vanish(&[e]);
-        self.judged.borrow_mut().insert(e, found);
-        found
+        self.space.vanish(&[e])
     }
 
     /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.

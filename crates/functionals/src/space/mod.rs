@@ -81,6 +81,8 @@ pub struct Space {
     distance: Symbol,
     /// What is assumed of fields, data and parameters.
     assumptions: RefCell<Assumptions>,
+    /// Whether expressions vanish, as far as that was asked.
+    vanishing: RefCell<BTreeMap<Expr, bool>>,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -126,6 +128,7 @@ impl Space {
             determinants: RefCell::default(),
             conjugations: RefCell::default(),
             assumptions: RefCell::default(),
+            vanishing: RefCell::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }

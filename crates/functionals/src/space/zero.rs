@@ -11,6 +11,7 @@ impl Space {
         let mut all = self.assumptions.borrow_mut();
         if !all.list().contains(&own) {
             all.assume(own.left, own.relation, own.right);
+            self.vanishing.borrow_mut().clear();
         }
     }
 
@@ -53,7 +54,21 @@ impl Space {
 
     /// Whether all expressions are proved to vanish identically in the symbols that occur.
     pub fn vanish(&self, residuals: &[Expr]) -> bool {
-        matches!(self.vanishing(residuals, false), Verdict::Proved(_))
+        residuals.iter().all(|&e| self.vanishes(e))
+    }
+
+    /// Whether an expression is proved to vanish identically. The same is asked on every piece of the boundary and for every solution that
+    /// is tried, so that it is kept until more is assumed.
+    fn vanishes(&self, e: Expr) -> bool {
+        if self.graph.is_zero(e) {
+            return true;
+        }
+        if let Some(&known) = self.vanishing.borrow().get(&e) {
+            return known;
+        }
+        let found = matches!(self.vanishing(&[e], false), Verdict::Proved(_));
+        self.vanishing.borrow_mut().insert(e, found);
+        found
     }
 
     /// Whether all expressions vanish identically, with the evidence. The normal n is a unit vector.
