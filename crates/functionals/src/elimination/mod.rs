@@ -26,9 +26,9 @@ mod solver;
 use self::ranking::Ranking;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
-use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
-use chetaev_symbolic::{rational, Expr, Node, Verdict};
+use chetaev_symbolic::{rational, Expr, Node, Rational, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -429,12 +429,23 @@ impl<'s> Solved<'s> {
         let mut all = Verdict::Proved(Proof::exact("", ""));
         for case in cases {
             let own = case.without_refutation(case.verdict_as_solved(e));
-            if matches!(own, Verdict::Refuted(_)) {
-                return own;
+            if let Verdict::Refuted(found) = own {
+                return Verdict::Refuted(case.with_case(found));
             }
             all = all.and(own);
         }
         all
+    }
+
+    /// A counterexample with the factors that vanish in the case at hand.
+    fn with_case(&self, mut found: Counterexample) -> Counterexample {
+        let vanishing = self.case.iter().map(|&factor| PointValue {
+            name: self.space.graph.text(factor),
+            exact: Some(Rational::ZERO),
+            enclosure: None,
+        });
+        found.point.extend(vanishing);
+        found
     }
 
     /// A group that is left by its label, and what is left of it where that is short.
@@ -524,11 +535,6 @@ impl<'s> Solved<'s> {
     /// A counterexample, where the boundary is plane if there is one: there the derivatives of the curvature are consistent.
     fn contradicted(&self, e: Expr) -> Verdict {
         let space = self.space;
-        if let Some(function) = space.known_by_conjugate(e) {
-            return Verdict::undecided(format!(
-                "the values of {function} are known through its conjugate alone, so that no counterexample was sought"
-            ));
-        }
         let plane = space.on_plane(e);
         let known = self.assumed_here();
         if plane == e {

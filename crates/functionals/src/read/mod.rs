@@ -4,6 +4,7 @@ mod assumptions;
 mod declare;
 mod family;
 mod living;
+mod names;
 mod relations;
 mod ritz;
 mod solutions;
@@ -11,6 +12,7 @@ mod statements;
 mod symmetry;
 mod vocabulary;
 
+use self::names::written_out;
 use crate::functional::{Functional, Problem};
 use crate::notation::{check, free_letters, parse, parse_sides, Node};
 use crate::space::Space;
@@ -83,7 +85,7 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         source: tables.source,
         span: Span::new(0, text.len().min(1)),
     };
-    let problem = match tables.table {
+    let problem = match tables.table.map(written_out) {
         Some(table) => {
             let mut problem = reader.problem(&table, place);
             reader.unused_overrides();

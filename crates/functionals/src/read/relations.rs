@@ -2,6 +2,7 @@
 
 use super::declare::{constants, place_holders, shape_of};
 use super::living::Living;
+use super::names::written_out;
 use super::Reader;
 use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
@@ -52,7 +53,8 @@ impl Reader<'_> {
             source: read.source,
             span: Span::new(0, 1),
         };
-        self.functional(&read.table?, place, Some(&functional.space))
+        let table = written_out(read.table?);
+        self.functional(&table, place, Some(&functional.space))
     }
 
     pub(super) fn required(&mut self, table: &Table, key: &str, what: &str) -> Option<Text> {

@@ -388,8 +388,15 @@ impl Reader<'_> {
         let place = place
             .or(table.get("domain").map(|raw| raw.place))
             .unwrap_or_default();
-        for name in declared {
-            if found.iter().all(|piece| piece.name != name.content) {
+        let section = table.get("boundary").and_then(Raw::table);
+        for (at, name) in declared.iter().enumerate() {
+            if declared[..at].iter().any(|own| own.content == name.content) {
+                self.is_twice(&name.content, name.place);
+                continue;
+            }
+            // What is wrong with what is said has been told.
+            let is_said = section.is_some_and(|own| own.get(&name.content).is_some());
+            if !is_said && found.iter().all(|piece| piece.name != name.content) {
                 let message = format!(
                     "nothing is said of the piece `{}` of the boundary",
                     name.content

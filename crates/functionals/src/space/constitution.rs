@@ -326,8 +326,24 @@ impl Space {
     /// Whether a function has a formula and its conjugate has none.
     pub(crate) fn is_known_alone(&self, function: usize) -> bool {
         let other = self.function_at(function).conjugate;
-        let has_formula = |own: usize| self.formula_of_gradient(own).is_some();
-        has_formula(function) && other.is_some_and(|own| !has_formula(own))
+        self.is_known(function) && other.is_some_and(|own| !self.is_known(own))
+    }
+
+    /// Whether a function is stated by formulas, if through other functions.
+    fn is_known(&self, function: usize) -> bool {
+        let mut met = BTreeSet::new();
+        let mut open = vec![function];
+        while let Some(own) = open.pop() {
+            if !met.insert(own) {
+                continue;
+            }
+            let value = self.bodies.borrow().get(&own).cloned();
+            let Some(rule) = value.or_else(|| self.gradients.borrow().get(&own).cloned()) else {
+                return false;
+            };
+            open.extend(rule.values.iter().flat_map(|&e| self.functions_in(e)));
+        }
+        true
     }
 
     /// The gradient of a function by its value or as it is stated, in its place-holders; `None` where it is not stated, or by other

@@ -1,9 +1,10 @@
 //! What is zero, and of which sign, in a space: under its assumptions, modulo what is known to vanish, on the unit sphere of normals.
 
 use super::Space;
+use chetaev_symbolic::verdict::{Counterexample, PointValue};
 use chetaev_symbolic::zero::assumptions::{Assumption, Assumptions, Relation, SignSet};
 use chetaev_symbolic::zero::{decide_zero, known_sign, Options, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Rational, Verdict};
 
 impl Space {
     /// Assumes a comparison of fields, data and parameters.
@@ -85,8 +86,44 @@ impl Space {
         self.vanishing_under(residuals, refute, &assumptions)
     }
 
-    /// The same under these assumptions alone.
+    /// The same under these assumptions alone. What holds for all functions is proved so, else by their formulas; values are drawn for
+    /// functions without a formula only, which may be any.
     pub fn vanishing_under(
+        &self,
+        residuals: &[Expr],
+        refute: bool,
+        assumed: &Assumptions,
+    ) -> Verdict {
+        let explicit: Vec<Expr> = residuals.iter().map(|&e| self.explicit(e)).collect();
+        if explicit == residuals {
+            return self.vanishing_by_formulas(residuals, refute, assumed);
+        }
+        match self.vanishing_as_written(residuals, false, assumed) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            _ => self.vanishing_by_formulas(&explicit, refute, assumed),
+        }
+    }
+
+    fn vanishing_by_formulas(
+        &self,
+        residuals: &[Expr],
+        refute: bool,
+        assumed: &Assumptions,
+    ) -> Verdict {
+        let mut known = residuals.iter().filter_map(|&e| self.known_by_conjugate(e));
+        let known = known.next().filter(|_| refute);
+        let found = self.vanishing_as_written(residuals, refute && known.is_none(), assumed);
+        match (found, known) {
+            (Verdict::Proved(proof), _) => Verdict::Proved(proof),
+            (_, Some(function)) => Verdict::undecided(format!(
+                "the values of {function} are known through its conjugate alone, so that no counterexample was sought"
+            )),
+            (found, None) => found,
+        }
+    }
+
+    /// The same with every application of a function as a symbol of its own.
+    fn vanishing_as_written(
         &self,
         residuals: &[Expr],
         refute: bool,
@@ -94,7 +131,7 @@ impl Space {
     ) -> Verdict {
         let mut assumptions = Assumptions::new();
         for own in assumed.list() {
-            let (left, right) = (self.on_sphere(own.left), self.on_sphere(own.right));
+            let [left, right] = [own.left, own.right].map(|e| self.on_sphere(self.explicit(e)));
             assumptions.assume(left, own.relation, right);
         }
         let test = |residuals: &[Expr], refute: bool| {
@@ -113,8 +150,40 @@ impl Space {
         }
         match test(residuals, false) {
             Verdict::Proved(proof) => Verdict::Proved(proof),
-            _ => test(&on_sphere, refute),
+            _ => match test(&on_sphere, refute) {
+                Verdict::Refuted(found) => Verdict::Refuted(self.with_normal(found)),
+                other => other,
+            },
         }
+    }
+
+    /// A counterexample with the components of the normal in the place of the coordinates on the sphere.
+    fn with_normal(&self, mut found: Counterexample) -> Counterexample {
+        let names: Vec<String> = (2..=self.dimensions()).map(on_chart).collect();
+        let (chart, mut point): (Vec<PointValue>, Vec<PointValue>) = found
+            .point
+            .drain(..)
+            .partition(|own| names.contains(&own.name));
+        let value = |name: &String| {
+            let own = chart.iter().find(|own| own.name == *name);
+            own.and_then(|own| own.exact.clone())
+                .unwrap_or(Rational::ZERO)
+        };
+        let at: Vec<Rational> = names.iter().map(value).collect();
+        let one = Rational::ONE;
+        let square = at.iter().fold(Rational::ZERO, |sum, a| sum + a * a);
+        let below = &one + &square;
+        let first = (&one - &square) / &below;
+        let others = at.iter().map(|a| Rational::from(2) * a / &below);
+        let normal = std::iter::once(first).chain(others);
+        let normal = self.normal.iter().zip(normal);
+        point.extend(normal.map(|(&symbol, value)| PointValue {
+            name: self.graph.symbol_text(symbol),
+            exact: Some(value),
+            enclosure: None,
+        }));
+        found.point = point;
+        found
     }
 
     /// The normal as a point of the unit sphere, by stereographic projection; in one dimension it is forward.
@@ -126,9 +195,7 @@ impl Space {
         if normals.iter().all(|n| !occurring.contains(n)) {
             return e;
         }
-        let at: Vec<Expr> = (2..=d)
-            .map(|i| g.symbol(&format!("normal_{i}"), 0))
-            .collect();
+        let at: Vec<Expr> = (2..=d).map(|i| g.symbol(&on_chart(i), 0)).collect();
         let square: Vec<Expr> = at.iter().map(|&a| g.powi(a, 2)).collect();
         let square = g.add(&square);
         let below = g.powi(g.add(&[g.one(), square]), -1);
@@ -140,4 +207,9 @@ impl Space {
             })
         })
     }
+}
+
+/// The name of a coordinate on the sphere of normals, from the second on.
+fn on_chart(i: usize) -> String {
+    format!("normal_{i}")
 }

@@ -1,6 +1,8 @@
 //! The acceptance examples of T4 §5.
 
-use crate::table::{decided, loaded_text, read_text, row_text, studied_text, ROWS};
+use crate::table::{
+    decided, loaded_text, read_text, row_text, studied_text, studied_with_energy, ROWS,
+};
 use chetaev_functionals::notation::parse;
 use chetaev_functionals::variation::variation;
 use chetaev_functionals::Problem;
@@ -131,6 +133,34 @@ fn e3_an_energy_that_is_not_quadratic() {
     assert!(is_euler(&own, "e_11", "sinh(e_11) - s_11"));
     let own = bar("p3p0", "energy-cosh");
     assert!(is_euler(&own, "s_11", "u_1,1 + u_1,1^2/2 - asinh(s_11)"));
+}
+
+/// What is proved of a row for every energy holds for each: neither formulas nor their conjugates make counterexamples.
+#[test]
+fn rows_with_an_energy_that_is_stated() {
+    let proved = |row: &str, energy: &'static str, d: &str| {
+        for own in &studied_with_energy(row, energy, d).verdicts {
+            let verdict = &own.finding.verdict;
+            let is_so = ["proved", "not-applicable"].contains(&verdict.word());
+            assert!(
+                is_so,
+                "{row} {energy} d = {d}: {} {}",
+                own.claim,
+                verdict.detail()
+            );
+        }
+    };
+    let rows = ROWS
+        .iter()
+        .filter(|row| row_text(row).contains("energy-abstract"));
+    for row in rows {
+        for energy in ["energy-quadratic", "energy-cosh"] {
+            proved(row, energy, "1");
+        }
+    }
+    for row in ["p4p", "p3p", "p3pb", "p0p", "p2c0"] {
+        proved(row, "energy-quadratic", "2");
+    }
 }
 
 #[test]

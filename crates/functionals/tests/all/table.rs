@@ -54,6 +54,30 @@ pub(crate) fn studied(row: &str, set: &[(&str, &str)]) -> Study {
     studied_text(row, &row_text(row), set)
 }
 
+/// The files of the table with another energy in all of them.
+struct WithEnergy(&'static str);
+
+impl WithEnergy {
+    fn of(&self, text: &str) -> String {
+        text.replace("energy-abstract", self.0)
+    }
+}
+
+impl Files for WithEnergy {
+    fn read(&self, path: &str) -> Result<String, String> {
+        Ok(self.of(&Disk.read(path)?))
+    }
+}
+
+/// All claims about a row, where it and what it is compared with have this energy.
+pub(crate) fn studied_with_energy(row: &str, energy: &'static str, d: &str) -> Study {
+    let (path, files) = (gallery().join(row).join("model.toml"), WithEnergy(energy));
+    let set = [("d".to_owned(), d.to_owned())];
+    let text = files.of(&row_text(row));
+    let problem = load(&path.to_string_lossy(), &text, &files, &set).problem;
+    study(problem.unwrap(), &|_| true, &|| 0.0)
+}
+
 /// The verdict on a claim of a study.
 pub(crate) fn decided<'s>(study: &'s Study, claim: &str) -> &'s Verdict {
     let found = study.verdicts.iter().find(|d| d.claim == claim);

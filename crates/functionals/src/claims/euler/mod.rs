@@ -50,9 +50,13 @@ impl Claim for Euler {
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
         let functional = cx.functional();
         if functional.with_role(Role::Yielded).next().is_none() {
+            let printed = match &cx.variation {
+                Ok(_) => "so the Euler equations are only printed".to_owned(),
+                Err(problem) => format!("and the Euler equations are not derived: {problem}"),
+            };
             return Verdict::not_applicable(
                 "functional.euler",
-                "the model states no field equations under `yields`, so the Euler equations are only printed",
+                format!("the model states no field equations under `yields`, {printed}"),
             )
             .into();
         }

@@ -173,7 +173,7 @@ fn by_signs(form: &Form<'_>) -> Option<Proof> {
     (is_held && sign(form.p[0][0]).is_positive() && is_rest).then(|| {
         Proof::exact(
             POSITIVE,
-            "Legendre's P is positive and R − Q' is not negative, so that the second variation is a sum of squares",
+            "Legendre's P is positive inside of the interval and R − Q' is not negative, so that the second variation is a sum of squares",
         )
     })
 }
