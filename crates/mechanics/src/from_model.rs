@@ -202,6 +202,7 @@ fn steady(model: &Model, stated: &SteadyStated) -> SteadyMotion {
         positions: of(0),
         velocities: of(1),
         guesses: guesses(&stated.values),
+        over: stated.over.and_then(|own| model.graph.as_symbol(own)),
     }
 }
 

@@ -230,6 +230,8 @@ pub struct SteadyMotion {
     pub velocities: Vec<Option<Expr>>,
     /// Which of them are guesses, near which the motion is searched for: the coordinate, and the order of its derivative, 0 or 1.
     pub guesses: Vec<(usize, u32)>,
+    /// The parameter over all of whose values it is spoken of, where the model names one.
+    pub over: Option<Symbol>,
 }
 
 /// How a sign or range is assumed.

@@ -482,6 +482,8 @@ pub struct SteadyStated {
     pub name: String,
     /// Given values by number of coordinate and order of derivative (0 or 1), expressions of parameters.
     pub values: BTreeMap<(usize, u32), InitialValue>,
+    /// The parameter over all of whose values it is spoken of.
+    pub over: Option<Expr>,
     /// Where it is stated.
     pub place: Place,
 }

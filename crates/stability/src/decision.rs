@@ -1,6 +1,7 @@
 //! One statement on a motion, decided at the values of the parameters that the model states, or for all values of the one parameter that occurs
 //! in the motion only.
 
+use crate::admitted::Admitted;
 use crate::bundle::{bundles, Bundle};
 use crate::characteristic::{LARGEST as VARIABLES, LARGEST_IN_NUMBERS};
 use crate::expansion::Expansion;
@@ -447,14 +448,16 @@ impl Pieces {
             .into_iter()
             .filter(|&e| g.as_number(e).is_none() && !g.symbols_in(&[e]).is_empty())
             .collect();
+        let admitted = Admitted::new(about.expansion.system, about.expansion.motion, symbol);
+        let cutting = [further.clone(), admitted.functions()].concat();
         let mut bound = question.bound(g)?;
-        if !further.is_empty() {
-            bound = bound.max(bound_of(g, &further, symbol)?);
+        if !cutting.is_empty() {
+            bound = bound.max(bound_of(g, &cutting, symbol)?);
         }
         let low = -bound.clone();
         let ranges = question.ranges(g, &low, &bound)?;
         let mut cuts = Vec::new();
-        for &e in &further {
+        for &e in &cutting {
             cuts.extend(real_roots(g, e, symbol, &low, &bound)?);
         }
         let mut own = Pieces {
@@ -463,20 +466,22 @@ impl Pieces {
             pieces: Vec::new(),
             borders: Vec::new(),
         };
-        own.cut(about, statement, &ranges, cuts);
         let functions = [question.boundary_functions(g), further].concat();
+        own.cut(about, statement, &ranges, (cuts, &admitted, &functions))?;
         own.decide_borders(cx, about, statement, (symbol, &ranges, &functions));
         Some(own)
     }
 
-    /// The intervals between all boundaries. A cut inside of an enclosure of a boundary belongs to it.
+    /// The intervals between all boundaries, of those that are admitted. A cut inside of an enclosure of a boundary belongs to it. `None` where
+    /// it was not decided what is admitted.
     fn cut(
         &mut self,
         about: &About<'_>,
         statement: &dyn Statement,
         ranges: &Ranges,
-        mut cuts: Vec<Root>,
-    ) {
+        (mut cuts, admitted, functions): (Vec<Root>, &Admitted, &[Expr]),
+    ) -> Option<()> {
+        let g = about.graph();
         cuts.extend(ranges.boundaries.iter().map(|b| b.root.clone()));
         cuts.sort_by(|a, b| a.low.cmp(&b.low));
         let mut roots: Vec<Root> = Vec::new();
@@ -497,6 +502,9 @@ impl Pieces {
             let Some(place) = region.map(|r| about.question.place(r.is_left)) else {
                 continue;
             };
+            if !admitted.contains(g, &sample)? {
+                continue;
+            }
             self.pieces.push(Piece {
                 low: a.clone(),
                 high: b.clone(),
@@ -511,7 +519,9 @@ impl Pieces {
             why: None,
             is_absent: false,
         };
+        roots.retain(|root| admitted.contains_root(g, root, functions) != Some(false));
         self.borders = roots.into_iter().map(border).collect();
+        Some(())
     }
 
     /// What holds where a determinant vanishes follows from the statement, or is decided at the value where that is known exactly.

@@ -169,8 +169,12 @@ pub fn bound_of(g: &Graph, es: &[Expr], symbol: Symbol) -> Option<RBig> {
     bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max()
 }
 
-/// The parameter that occurs in the motion and not in the equations of the system, where there is exactly one.
+/// The parameter over whose values a motion is judged: the one that the model names for it, else the one that occurs in the motion and not in
+/// the equations of the system, where there is exactly one.
 pub fn parameter_of_motion(system: &System, motion: &SteadyMotion) -> Option<Symbol> {
+    if motion.over.is_some() {
+        return motion.over;
+    }
     let g = &system.graph;
     let given: Vec<_> = motion
         .positions

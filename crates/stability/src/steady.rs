@@ -27,6 +27,7 @@ pub fn rest(system: &System, name: &str, positions: Vec<Option<Expr>>) -> Steady
         positions,
         velocities: vec![Some(zero); system.n()],
         guesses: Vec::new(),
+        over: None,
     }
 }
 

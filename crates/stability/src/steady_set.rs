@@ -266,6 +266,7 @@ impl<'a> Equations<'a> {
             positions: (0..system.n()).map(position).collect(),
             velocities: velocities.into_iter().map(Some).collect(),
             guesses: Vec::new(),
+            over: None,
         }
     }
 }

@@ -435,6 +435,7 @@ pub(crate) fn motions(
         name: "start".into(),
         positions: of_start(0),
         velocities: of_start(1),
+        over: None,
         guesses: guessed
             .map(|(place, _)| *place)
             .filter(|(_, order)| *order <= 1)

@@ -1,12 +1,16 @@
 //! Values of a parameter at which stability changes.
 
+use crate::admitted::Admitted;
 use crate::decision::{about, closed_form, place_exactly, About};
 use crate::evidence::motions;
 use crate::hurwitz::{Boundary, Crossing, Ranges, Region};
-use crate::question::{parameter_of_motion, Place};
+use crate::isolation::Root;
+use crate::question::{bound_of, parameter_of_motion, Place};
+use crate::real_roots::real_roots;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
+use dashu_ratio::RBig;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -70,6 +74,12 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     let about = about(cx, Some(name))?.ok()?;
     let (g, question) = (about.graph(), &about.question);
     let symbol = question.over?;
+    let admitted = Admitted::new(cx.system, about.expansion.motion, symbol);
+    let mut ends = Vec::new();
+    for e in admitted.functions() {
+        let bound = bound_of(g, &[e], symbol)?;
+        ends.extend(real_roots(g, e, symbol, &-bound.clone(), &bound)?);
+    }
     let bound = question.bound(g)?;
     let over = Over {
         cx,
@@ -77,11 +87,17 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
         symbol,
         ranges: question.ranges(g, &-bound.clone(), &bound)?,
         functions: question.boundary_functions(g),
+        admitted,
+        ends,
     };
     let parameter = g.symbol_text(symbol);
     let mut listed = Vec::new();
     let mut open = Vec::new();
-    for boundary in &over.ranges.boundaries {
+    let is_admitted = |own: &&Boundary| {
+        let found = over.admitted.contains_root(g, &own.root, &over.functions);
+        found != Some(false)
+    };
+    for boundary in over.ranges.boundaries.iter().filter(is_admitted) {
         match over.change(boundary) {
             Change::Is(how) => listed.push(format!("{} ({how})", over.place(boundary))),
             Change::Perhaps => open.push(over.place(boundary)),
@@ -89,7 +105,10 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
         }
     }
     let mut said = match listed.as_slice() {
-        [] => format!("the stability of {name} is the same for all {parameter}"),
+        [] if over.admitted.functions().is_empty() => {
+            format!("the stability of {name} is the same for all {parameter}")
+        }
+        [] => format!("the stability of {name} is the same for all {parameter} that are assumed"),
         list => format!("the stability of {name} changes at {}", list.join(", at ")),
     };
     if !open.is_empty() {
@@ -110,6 +129,10 @@ struct Over<'a, 'c> {
     ranges: Ranges,
     /// At whose zeros the boundaries lie.
     functions: Vec<Expr>,
+    /// Which values of the parameter are.
+    admitted: Admitted,
+    /// Where something that is assumed begins or ceases to hold.
+    ends: Vec<Root>,
 }
 
 /// What is known of a boundary.
@@ -124,10 +147,13 @@ enum Change {
 
 impl Over<'_, '_> {
     fn change(&self, boundary: &Boundary) -> Change {
-        let place = |side: Option<&Region>| side.map(|own| self.about.question.place(own.is_left));
+        let place = |own: &Region| self.about.question.place(own.is_left);
         let (root, regions) = (&boundary.root, &self.ranges.regions);
-        let before = place(regions.iter().rfind(|r| r.high <= root.low));
-        let after = place(regions.iter().find(|r| r.low >= root.high));
+        let before = regions.iter().rfind(|r| r.high <= root.low);
+        let before = before.filter(|own| self.is_admitted_below(&own.low, &root.low));
+        let after = regions.iter().find(|r| r.low >= root.high);
+        let after = after.filter(|own| self.is_admitted_above(&root.high, &own.high));
+        let (before, after) = (before.map(place), after.map(place));
         let how = how(boundary.crossing);
         if before != after {
             return Change::Is(format!("{how}{}", towards(before, after)));
@@ -151,6 +177,24 @@ impl Over<'_, '_> {
                 word(beside)
             )),
         }
+    }
+
+    /// Whether values next to the upper end of an interval are admitted.
+    fn is_admitted_below(&self, low: &RBig, at: &RBig) -> bool {
+        let ends = self.ends.iter().map(|own| &own.high);
+        let from = ends.filter(|end| *end < at).fold(low, Ord::max);
+        self.is_admitted((from + at) / RBig::from(2))
+    }
+
+    /// Whether values next to the lower end of an interval are admitted.
+    fn is_admitted_above(&self, at: &RBig, high: &RBig) -> bool {
+        let ends = self.ends.iter().map(|own| &own.low);
+        let to = ends.filter(|end| *end > at).fold(high, Ord::min);
+        self.is_admitted((at + to) / RBig::from(2))
+    }
+
+    fn is_admitted(&self, at: RBig) -> bool {
+        self.admitted.contains(self.about.graph(), &at) != Some(false)
     }
 
     /// The value in closed form.

@@ -82,6 +82,7 @@ impl Case {
             positions: names.clone().map(|name| of(name.clone())).collect(),
             velocities: names.map(|name| of(format!("{name}'"))).collect(),
             guesses: Vec::new(),
+            over: None,
         }
     }
 

@@ -494,6 +494,71 @@ x = "acos(beta)"
     assert_eq!(stable, [false, true]);
 }
 
+/// A parameter of the equations over which a motion is judged: Watt's governor over its friction, which is positive.
+#[test]
+fn a_motion_is_judged_over_the_parameter_that_it_names() {
+    let text = |over: &str, assumed: &str| {
+        format!(
+            r#"
+coordinates = ["x", "s"]
+parameters = {{ alpha = 0.5, beta = 0.36, eps = 0.3 }}
+assumptions = ["{assumed}"]
+[lagrangian]
+T = "1/2 x'^2 + 1/2 s'^2"
+[forces]
+x = "s'^2 sin(x) cos(x) - sin(x) - eps x'"
+s = "alpha (cos(x) - beta)"
+[steady.running]
+x = "acos(beta)"
+"x'" = 0
+"s'" = "beta^(-1/2)"
+over = "{over}"
+"#
+        )
+    };
+    let case = Case::new(&text("eps", "eps > 0"));
+    let said = |claim: &str| case.said(claim, "running");
+    assert_eq!(said("stability.asymptotic"), "eps > 0.216");
+    assert_eq!(said("stability.spectral"), "eps >= 0.216");
+    let Verdict::Proved(proof) = case.verdict("stability.critical", "eps") else {
+        panic!("{}", case.said("stability.critical", "eps"));
+    };
+    assert!(proof.detail.contains("eps in [2.15999999"), "{proof:?}");
+
+    // With ε = 0.3 it is stable where α < 0.3/(2 · 0.216).
+    let of_valve = Case::new(&text("alpha", "alpha > 0"));
+    let found = of_valve.said("stability.asymptotic", "running");
+    assert!(found.starts_with("0 < alpha < 0.6944"), "{found}");
+
+    // Beyond what is assumed nothing fails, and nothing changes.
+    let damped = Case::new(&text("eps", "eps > 1/4"));
+    assert_eq!(damped.said("stability.asymptotic", "running"), "proved");
+    let Verdict::Proved(proof) = damped.verdict("stability.critical", "eps") else {
+        panic!("{}", damped.said("stability.critical", "eps"));
+    };
+    assert!(proof.detail.contains("is the same"), "{proof:?}");
+    let hunting = Case::new(&text("eps", "eps < 1/5").replace("eps = 0.3", "eps = 0.1"));
+    assert_eq!(hunting.said("stability.spectral", "running"), "refuted");
+}
+
+/// A sleigh that is assumed to go forward is stable: going backward is no counterexample.
+#[test]
+fn only_values_that_are_assumed_are_spoken_of() {
+    let with = |assumed: &str| {
+        let stated = r#"assumptions = ["m > 0", "J > 0"]"#;
+        let all = format!(r#"assumptions = ["m > 0", "J > 0", "{assumed}"]"#);
+        Case::gallery_with("chaplygin-sleigh", stated, &all)
+            .said("stability.asymptotic", "straight")
+    };
+    assert_eq!(with("ahead > 0"), "proved");
+    assert_eq!(with("ahead >= 0"), "ahead > 0");
+    assert_eq!(with("ahead != 0"), "ahead > 0");
+    assert_eq!(with("ahead > -1"), "ahead > 0");
+    assert_eq!(with("ahead^2 < 4"), "0 < ahead < 2");
+    assert_eq!(with("m ahead > 1"), "proved");
+    assert_eq!(with("x' > 0"), "proved");
+}
+
 /// The pole on a cart in state space: `(M + m) g/(M l)`, `1/M`, `−1/(M l)` (Åström and Murray 2008), and its transfer function.
 #[test]
 fn the_pole_on_a_cart() {

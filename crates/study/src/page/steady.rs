@@ -6,12 +6,14 @@ use crate::overview::found::rounded;
 use crate::stability::map::{Asked, Course, StabilityMap};
 use crate::stability::{stability, Stability, Wanted};
 use crate::study::Study;
+use chetaev_mechanics::prover::assumptions;
 use chetaev_report::data::{
     Cell, Figure, Map, Outline, Series, SeriesGroup, Table, TableRow, Tint,
 };
 use chetaev_stability::hurwitz::Region;
 use chetaev_stability::isolation::Root;
 use chetaev_stability::question::parameter_of_motion;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Rational, Verdict};
 
 /// The table with its figures, maps and modes.
@@ -61,7 +63,8 @@ fn about(study: &Study, name: &str) -> Option<Stability> {
     found.or_else(|| stability(&study.model, &wanted(None)).ok())
 }
 
-/// The range of a parameter that the model states; else from minus twice its value to twice it, in short decimals.
+/// The range of a parameter that the model states; else from minus twice its value to twice it, in short decimals, of one sign where that is
+/// assumed.
 fn range(study: &Study, name: &str) -> Option<String> {
     if let Some(text) = stated_range(study, name) {
         return Some(text);
@@ -74,7 +77,14 @@ fn range(study: &Study, name: &str) -> Option<String> {
         _ => 1.0,
     };
     let end: f64 = format!("{:.3e}", 2.0 * size).parse().ok()?;
-    Some(format!("{name}=-{end}:{end}"))
+    let sign = known_sign(&system.graph, parameter.expr, &assumptions(system));
+    Some(if sign.is_nonnegative() {
+        format!("{name}=0:{end}")
+    } else if sign.is_nonpositive() {
+        format!("{name}=-{end}:0")
+    } else {
+        format!("{name}=-{end}:{end}")
+    })
 }
 
 /// The range that the model states of a parameter, where its ends are numbers.
