@@ -198,13 +198,13 @@ impl Case<'_> {
     }
 
     fn decide_as_stated(self) -> Verdict {
-        let exact = match self.test.options.exact {
-            true => exact::decide(self.graph, self.residuals, self.assumptions),
-            false => Exact::Open,
-        };
         let program = self.program();
         let plan = plan_of(&self.test.options, 1, self.residuals.len());
         let outcome = modular::decide(&program, &plan);
+        let exact = match self.test.options.exact && !is_apart(&program, &outcome) {
+            true => exact::decide(self.graph, self.residuals, self.assumptions),
+            false => Exact::Open,
+        };
         match exact {
             Exact::Zero => self.confirm(&program, outcome),
             Exact::Undefined => Verdict::undecided(
@@ -323,6 +323,15 @@ impl Case<'_> {
             )),
         }
     }
+}
+
+/// Whether no normal form can be zero: something is not zero at a point, and is built of symbols by arithmetic alone.
+fn is_apart(program: &Program, outcome: &Outcome) -> bool {
+    let is_symbol = |own: &Generator| matches!(own, Generator::Symbol(_));
+    let is_rational = program.circles == 0
+        && program.radicals == 0
+        && program.generators.iter().all(is_symbol);
+    is_rational && matches!(outcome, Outcome::Found(finding) if finding.minimum > 0)
 }
 
 pub(super) fn plan_of(options: &Options, rows: usize, columns: usize) -> Plan {
