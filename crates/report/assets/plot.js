@@ -37,6 +37,8 @@ class Plot {
     this.spec = spec;
     this.overTime = spec.kind === "time";
     this.isPortrait = spec.kind === "portrait";
+    /** Curves in a plane over a parameter, as eigenvalues in the complex plane. */
+    this.isPlane = Boolean(spec.own?.plane);
     this.takeCurves(curves, times);
     this.findBounds();
     this.build();
@@ -61,6 +63,16 @@ class Plot {
       return;
     }
     const own = spec.own;
+    if (this.isPlane) {
+      const parts = own.curves.map((curve) => numbers(curve.values));
+      this.rawX = numbers(own.abscissae);
+      this.times = null;
+      this.names = own.plane;
+      this.curves = parts.filter((_, i) => i % 2 === 0).map((x, hue) => ({
+        ...own.curves[2 * hue], x, y: parts[2 * hue + 1], raw: parts[2 * hue + 1], hue, visible: true,
+      }));
+      return;
+    }
     const list = own ? own.curves.map((c) => ({ ...c, y: numbers(c.values) })) : spec.series.map((i) => curves[i]);
     const x = own ? numbers(own.abscissae) : times;
     this.rawX = x;
@@ -102,7 +114,9 @@ class Plot {
     }
     if (!Number.isFinite(x0)) [x0, x1] = [0, 1];
     if (x0 === x1) [x0, x1] = [x0 - 0.5, x1 + 0.5];
-    if (this.isPortrait || spec.marks) { const grow = (x1 - x0) * 0.05; [x0, x1] = [x0 - grow, x1 + grow]; }
+    // Which side of the axes a curve is on is what it tells.
+    if (this.isPlane) [x0, x1] = [Math.min(x0, 0), Math.max(x1, 0)];
+    if (this.isPortrait || this.isPlane || spec.marks) { const grow = (x1 - x0) * 0.05; [x0, x1] = [x0 - grow, x1 + grow]; }
     this.bounds = { x: [x0, x1], y: [y0, y1] };
   }
 
@@ -191,7 +205,7 @@ class Plot {
 
   paint() {
     const width = Math.max(this.figure.clientWidth, 200);
-    const height = this.isPortrait ? Math.round(Math.min(width * 0.8, 360)) : 230;
+    const height = this.isPortrait || this.isPlane ? Math.round(Math.min(width * 0.8, 360)) : 230;
     this.shown = { x: this.view.x, y: this.view.y };
     const ticksY = this.ticks("y", Math.max(3, height / 50));
     const longest = Math.max(2, ...ticksY.list.map((tick) => tick.text.length));
@@ -285,6 +299,17 @@ class Plot {
         draw("title", {}, line, `${detail} (${readable(time)})`);
       }
     }
+    if (this.isPlane) {
+      const [x, y] = [this.toX(0), this.toY(0)];
+      draw("line", { class: "level", x1: x, x2: x, y1: top, y2: height - bottom }, this.levels);
+      draw("line", { class: "level", x1: left, x2: width - right, y1: y, y2: y }, this.levels);
+      for (const curve of this.curves.filter((c) => c.visible)) {
+        const i = curve.x.findIndex(Number.isFinite);
+        if (i < 0) continue;
+        const mark = draw("circle", { class: "start", r: 3, cx: this.toX(curve.x[i]), cy: this.toY(curve.y[i]) }, this.levels);
+        draw("title", {}, mark, this.placeText(i));
+      }
+    }
     if (this.isPortrait && this.curves[0].x.length) {
       const { x, y } = this.curves[0];
       const mark = draw("circle", { class: "start", r: 3, cx: this.toX(x[0]), cy: this.toY(y[0]) }, this.levels);
@@ -296,7 +321,7 @@ class Plot {
   pathOf(curve) {
     const pen = new Pen();
     const put = (i) => pen.to(this.toX(curve.x[i]), this.toY(Number.isNaN(curve.y[i]) ? NaN : Math.max(curve.y[i], this.foot())));
-    const isRun = !this.isPortrait && !this.spec.marks;
+    const isRun = !this.isPortrait && !this.isPlane && !this.spec.marks;
     const [first, last] = isRun ? this.visibleRange(curve.x) : [0, curve.x.length];
     // Of a drift the upper edge tells: it crosses zero again and again, down to any depth.
     if (isRun && this.spec.log && last - first > this.box.inner[0] / 2) {
@@ -327,9 +352,9 @@ class Plot {
   /** Moves cursor, dots and values to the sample nearest to a time (or abscissa of a figure). */
   showAt(time) {
     const isShown = Number.isFinite(time) && this.box;
-    const abscissae = this.times ?? this.curves[0]?.x ?? [];
+    const abscissae = this.times ?? (this.isPlane ? this.rawX : this.curves[0]?.x) ?? [];
     const index = isShown ? nearest(abscissae, time) : -1;
-    const at = index >= 0 ? (this.isPortrait ? NaN : this.toX(time)) : NaN;
+    const at = index >= 0 ? (this.isPortrait || this.isPlane ? NaN : this.toX(time)) : NaN;
     finish(this.cursor, Number.isFinite(at)
       ? { x1: at, x2: at, y1: this.box.top, y2: this.box.height - this.box.bottom, visibility: "visible" }
       : { visibility: "hidden" });
@@ -339,13 +364,17 @@ class Plot {
       const [x, y] = [curve.x[place], curve.y[place]];
       const isVisible = place >= 0 && curve.visible && Number.isFinite(x) && Number.isFinite(y);
       finish(curve.dot, isVisible ? { cx: this.toX(x), cy: this.toY(y), visibility: "visible" } : { visibility: "hidden" });
-      if (curve.value) curve.value.textContent = place >= 0 ? readable(curve.raw[place]) : "";
+      if (curve.value) curve.value.textContent = place < 0 ? "" : this.isPlane ? this.pairText(x, y) : readable(curve.raw[place]);
     }
     if (this.position) this.position.textContent = index >= 0 && this.hovered !== undefined ? this.placeText(index) : "";
     if (this.readout) this.readout.textContent = index >= 0 ? this.portraitText(index) : " ";
   }
 
+  /** The two parts of a place in the plane. */
+  pairText(x, y) { return `(${readable(x, 4)}, ${readable(y, 4)})`; }
+
   placeText(index) {
+    if (this.isPlane) return `${plainName(this.spec.own.name)} = ${readable(this.rawX[index], 4)}`;
     return this.times ? `t = ${readable(this.times[index])}` : readable(this.rawX[index]);
   }
 
@@ -425,8 +454,12 @@ class Plot {
 
   hover([px, py]) {
     if (this.isPortrait) {
-      const i = this.nearestPoint(px, py);
+      const i = this.nearestPoint(px, py, this.curves[0]).best;
       this.hovered = i < 0 ? undefined : this.times[i];
+    } else if (this.isPlane) {
+      const found = this.curves.filter((c) => c.visible).map((curve) => this.nearestPoint(px, py, curve));
+      const best = found.reduce((a, b) => (b.least < a.least ? b : a), { best: -1, least: Infinity }).best;
+      this.hovered = best < 0 ? undefined : this.rawX[best];
     } else {
       const x = this.curves[0]?.x ?? [];
       const i = nearest(x, this.fromX(px));
@@ -435,14 +468,13 @@ class Plot {
     this.showAt(this.shownTime());
   }
 
-  nearestPoint(px, py) {
-    const { x, y } = this.curves[0];
+  nearestPoint(px, py, { x, y }) {
     let [best, least] = [-1, Infinity];
     for (let i = 0; i < x.length; i++) {
       const distance = (this.toX(x[i]) - px) ** 2 + (this.toY(y[i]) - py) ** 2;
       if (distance < least) [best, least] = [i, distance];
     }
-    return best;
+    return { best, least };
   }
 
   /** The part of the plot between two corners; a flat selection takes the whole height. */

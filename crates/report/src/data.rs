@@ -612,6 +612,9 @@ pub struct Figure {
     pub abscissae: Vec<f64>,
     /// The curves; each as long as `abscissae`.
     pub series: Vec<Series>,
+    /// Names of the axes of a plane in which the curves are drawn instead, with `abscissae` as their parameter: the series are then pairs,
+    /// the horizontal and the vertical part of a curve, which has the name of the first.
+    pub plane: Option<(String, String)>,
     /// Logarithmic horizontal axis.
     pub logarithmic_horizontal: bool,
     /// Logarithmic vertical axis.

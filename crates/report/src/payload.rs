@@ -161,6 +161,9 @@ struct Own<'a> {
     #[serde(with = "crate::number::vector")]
     abscissae: &'a Vec<f64>,
     curves: Vec<Curve<'a>>,
+    /// The axes of a plane, where the curves are drawn in one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plane: Option<[&'a str; 2]>,
 }
 
 #[derive(Serialize)]
@@ -468,6 +471,7 @@ fn figure(figure: &crate::data::Figure, kind: PlotKind) -> Plot<'_> {
             unit: figure.horizontal_unit.as_deref(),
             abscissae: &figure.abscissae,
             curves: figure.series.iter().map(Curve::new).collect(),
+            plane: figure.plane.as_ref().map(|(x, y)| [x.as_str(), y]),
         }),
     }
 }

@@ -403,6 +403,32 @@ fn a_report_has_a_section_on_steady_motions() {
     let _ = std::fs::remove_dir_all(folder);
 }
 
+/// In the root locus of the bicycle a pair comes to the imaginary axis at the speed at which weaving ends.
+fn a_locus_crosses_the_axis(data: &Value) {
+    let plots = data["plots"].as_array().unwrap();
+    let mut planes = plots.iter().filter(|plot| !plot["own"]["plane"].is_null());
+    let own = &planes.next().unwrap()["own"];
+    assert_eq!(own["name"], "v");
+    let numbers = |list: &Value| -> Vec<f64> {
+        let list = list.as_array().unwrap().iter();
+        list.map(|x| x.as_f64().unwrap()).collect()
+    };
+    let speeds = numbers(&own["abscissae"]);
+    let curves: Vec<Vec<f64>> = own["curves"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| numbers(&c["values"]))
+        .collect();
+    let step = speeds[1] - speeds[0];
+    let crosses = |pair: &[Vec<f64>]| {
+        let at = (1..speeds.len())
+            .find(|&i| pair[0][i - 1] > 0.0 && pair[0][i] <= 0.0 && pair[1][i] > 1.0);
+        at.is_some_and(|i| (speeds[i] - 4.292382536341104).abs() <= step)
+    };
+    assert_eq!(curves.chunks(2).filter(|pair| crosses(pair)).count(), 1);
+}
+
 /// The report of the bicycle has its modes, weave, capsize and castering, and a map over speed and trail, for which the model states a range.
 #[test]
 fn a_report_plays_modes_and_shows_regions() {
@@ -416,6 +442,7 @@ fn a_report_plays_modes_and_shows_regions() {
     let _ = std::fs::remove_dir_all(folder);
     let (_, data) = page.split_once("id=\"data\">").unwrap();
     let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    a_locus_crosses_the_axis(&data);
     let modes = data["albums"][0].as_array().unwrap();
     // At 5 m/s (Meijaard and others 2007, table 2).
     let names: Vec<&str> = modes.iter().map(|m| m["name"].as_str().unwrap()).collect();

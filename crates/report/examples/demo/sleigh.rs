@@ -490,6 +490,7 @@ pub(crate) fn report() -> Report {
                 values: (0..7).map(|i| 2e-4 * 0.5_f64.powi(8 * i) + 1e-15).collect(),
                 ..Series::default()
             }],
+            plane: None,
             logarithmic_horizontal: true,
             logarithmic_vertical: true,
             marks: true,

@@ -4,7 +4,7 @@
 use super::modes;
 use crate::overview::found::rounded;
 use crate::stability::map::{Asked, Course, StabilityMap};
-use crate::stability::{stability, Stability, Wanted};
+use crate::stability::{stability, Range, Stability, Wanted};
 use crate::study::Study;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_report::data::{
@@ -38,7 +38,7 @@ pub(super) fn section(study: &Study) -> Option<Table> {
         rows: rows.collect(),
         figures: found
             .iter()
-            .filter_map(|(name, own)| figure(name, own))
+            .flat_map(|(name, own)| figures(name, own))
             .collect(),
         maps: found
             .iter()
@@ -243,9 +243,11 @@ fn number((re, im): (f64, f64)) -> String {
 /// Values of the parameter in the figure.
 const SAMPLES: usize = 240;
 
-/// The real and imaginary parts of the eigenvalues over the range, each curve one eigenvalue.
-fn figure(name: &str, own: &Stability) -> Option<Figure> {
-    let range = own.range.as_ref()?;
+/// The eigenvalues over the parameter of a motion: their parts over it, and their places in the complex plane.
+fn figures(name: &str, own: &Stability) -> Vec<Figure> {
+    let Some(range) = own.range.as_ref() else {
+        return Vec::new();
+    };
     let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
     let mut abscissae = Vec::new();
     let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
@@ -261,31 +263,58 @@ fn figure(name: &str, own: &Stability) -> Option<Figure> {
         }
         abscissae.push(at);
     }
-    let series = |(place, curve): (usize, &Vec<(f64, f64)>)| {
-        let part = |what: &str, values: Vec<f64>| Series {
-            name: format!("{what} λ {}", place + 1),
-            label: Some(format!("{what} λ_{{{}}}", place + 1)),
-            group: SeriesGroup::Other,
-            values,
-            ..Series::default()
+    let parts = |label: &dyn Fn(&str, usize) -> (String, String)| -> Vec<Series> {
+        let of = |(place, curve): (usize, &Vec<(f64, f64)>)| {
+            let part = |what: &str, values: Vec<f64>| {
+                let (name, label) = label(what, place + 1);
+                Series {
+                    name,
+                    label: Some(label),
+                    group: SeriesGroup::Other,
+                    values,
+                    ..Series::default()
+                }
+            };
+            [
+                part("Re", curve.iter().map(|l| l.0).collect()),
+                part("Im", curve.iter().map(|l| l.1).collect()),
+            ]
         };
-        [
-            part("Re", curve.iter().map(|l| l.0).collect()),
-            part("Im", curve.iter().map(|l| l.1).collect()),
-        ]
+        curves.iter().enumerate().flat_map(of).collect()
     };
-    Some(Figure {
+    let claim = Some(format!("stability.spectral#{name}"));
+    let over = Figure {
         title: format!("Eigenvalues of the motion {name}"),
         explanation: vec![format!(
             "Real and imaginary parts over {}: the motion is unstable where a real part is positive.",
             range.name
         )],
         horizontal: range.name.clone(),
-        abscissae,
-        series: curves.iter().enumerate().flat_map(series).collect(),
-        claim: Some(format!("stability.spectral#{name}")),
+        abscissae: abscissae.clone(),
+        series: parts(&|what, i| (format!("{what} λ {i}"), format!("{what} λ_{{{i}}}"))),
+        claim: claim.clone(),
         ..Figure::default()
-    })
+    };
+    let locus = Figure {
+        title: format!("Root locus of the motion {name}"),
+        explanation: vec![format!(
+            "The paths of the eigenvalues in the complex plane from {} to {} (a dot marks where each begins): the motion is unstable where one lies right of the imaginary axis.",
+            at_end(range, low),
+            at_end(range, high)
+        )],
+        plane: Some(("Re λ".into(), "Im λ".into())),
+        series: parts(&|_, i| (format!("λ {i}"), format!("λ_{{{i}}}"))),
+        abscissae,
+        horizontal: range.name.clone(),
+        claim,
+        ..Figure::default()
+    };
+    vec![over, locus]
+}
+
+/// An end of a range, as it is printed.
+fn at_end(range: &Range, value: f64) -> String {
+    format!("{} = {value}", range.name)
 }
 
 /// Each curve goes on to the eigenvalue nearest to its last one that no other has taken.

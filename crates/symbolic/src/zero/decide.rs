@@ -328,9 +328,8 @@ impl Case<'_> {
 /// Whether no normal form can be zero: something is not zero at a point, and is built of symbols by arithmetic alone.
 fn is_apart(program: &Program, outcome: &Outcome) -> bool {
     let is_symbol = |own: &Generator| matches!(own, Generator::Symbol(_));
-    let is_rational = program.circles == 0
-        && program.radicals == 0
-        && program.generators.iter().all(is_symbol);
+    let is_rational =
+        program.circles == 0 && program.radicals == 0 && program.generators.iter().all(is_symbol);
     is_rational && matches!(outcome, Outcome::Found(finding) if finding.minimum > 0)
 }
 
