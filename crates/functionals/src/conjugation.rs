@@ -72,12 +72,19 @@ impl Space {
 
     /// The x at which `A'(x) = s`, in the place-holders, where the gradient is linear.
     fn inverse_of_linear(&self, function: usize) -> Option<Vec<Expr>> {
+        let gradient = self.formula_of_gradient(function)?;
+        let (determinant, inverse) = self.inverse_of(function, &gradient)?;
+        self.note_determinant(function, determinant);
+        inverse
+    }
+
+    /// The determinant of a linear gradient, and where it does not vanish the argument at which the gradient is in the place-holders.
+    fn inverse_of(&self, function: usize, gradient: &[Expr]) -> Option<(Expr, Option<Vec<Expr>>)> {
         let g = &self.graph;
         let slots = self.slots(function);
-        let gradient = self.formula_of_gradient(function)?;
         let symbols: Vec<Symbol> = slots.iter().filter_map(|&s| g.as_symbol(s)).collect();
         let mut matrix = Vec::new();
-        for &e in &gradient {
+        for &e in gradient {
             for &symbol in &symbols {
                 let slope = self.derive(e, &|s| (s == symbol).then_some(g.one()));
                 if g.contains_any(slope, &symbols) {
@@ -88,37 +95,57 @@ impl Space {
         }
         let rows: Vec<Vec<Expr>> = matrix.chunks(slots.len()).map(<[Expr]>::to_vec).collect();
         let determinant = determinant(g, &rows);
-        self.note_determinant(function, determinant);
         if self.vanish(&[determinant]) {
-            return None;
+            return Some((determinant, None));
         }
         let at_zero: Vec<(Expr, Expr)> = slots.iter().map(|&s| (s, g.zero())).collect();
-        let rest = g.substitute_all(&gradient, &at_zero);
+        let rest = g.substitute_all(gradient, &at_zero);
         // The place-holders stand for the argument of the conjugate now.
         let right: Vec<Expr> = slots.iter().zip(rest).map(|(&s, r)| g.sub(s, r)).collect();
-        g.solve(&matrix, &right).ok()
+        Some((determinant, g.solve(&matrix, &right).ok()))
+    }
+
+    /// The conjugate of a value in the place-holders of a function, in those of the conjugate, where its gradient is linear.
+    pub(crate) fn conjugate_of_value(&self, function: usize, value: Expr) -> Option<Expr> {
+        let gradient = self.gradient_of_value(function, value);
+        let (_, inverse) = self.inverse_of(function, &gradient)?;
+        let x = inverse?;
+        let at = self.at_arguments(function, value, &x);
+        Some(self.legendre(function, at, &x))
+    }
+
+    /// Whether values in the place-holders of two functions are conjugates of each other: `V'(W'(x)) = x`, and both add up to `W'(x) x`.
+    pub(crate) fn are_conjugates(&self, (function, value): (usize, Expr), other: Expr) -> Verdict {
+        let g = &self.graph;
+        let slots = self.slots(function);
+        let image = self.gradient_of_value(function, value);
+        let back = self.gradient_of_value(function, other).into_iter();
+        let back = back.map(|e| self.at_arguments(function, e, &image));
+        let mut residuals: Vec<Expr> = back.zip(&slots).map(|(e, &x)| g.sub(e, x)).collect();
+        let there = self.at_arguments(function, other, &image);
+        let multiplicities = self.function_at(function).multiplicities;
+        let mut terms = vec![value, there];
+        for ((&x, &y), &m) in slots.iter().zip(&image).zip(&multiplicities) {
+            terms.push(g.neg(g.mul(&[g.integer(m), x, y])));
+        }
+        residuals.push(g.add(&terms));
+        self.vanishing(&residuals, true)
     }
 
     /// `s x − A(x)` where A has a value.
     fn conjugate_value(&self, function: usize, x: &[Expr]) -> Option<Expr> {
-        let g = &self.graph;
-        let slots = self.slots(function);
-        let multiplicities = self.function_at(function).multiplicities;
-        let mut terms = vec![g.neg(self.body(function, &[], x)?)];
-        for ((&y, &x), &m) in slots.iter().zip(x).zip(&multiplicities) {
-            terms.push(g.mul(&[g.integer(m), x, y]));
-        }
-        Some(g.add(&terms))
+        Some(self.legendre(function, self.body(function, &[], x)?, x))
     }
 
-    /// A function in an expression that has no formula, though its conjugate has one: what its values are is known through that alone.
-    pub fn known_by_conjugate(&self, e: Expr) -> Option<String> {
-        let mut applied = self.functions_in(e).into_iter();
-        let own = applied.find(|&own| {
-            let other = self.function_at(own).conjugate;
-            other.is_some_and(|other| self.is_known_alone(other))
-        })?;
-        Some(self.function_at(own).name)
+    /// `s x − a`, with s in the place-holders.
+    fn legendre(&self, function: usize, a: Expr, x: &[Expr]) -> Expr {
+        let g = &self.graph;
+        let multiplicities = self.function_at(function).multiplicities;
+        let mut terms = vec![g.neg(a)];
+        for ((&y, &x), &m) in self.slots(function).iter().zip(x).zip(&multiplicities) {
+            terms.push(g.mul(&[g.integer(m), x, y]));
+        }
+        g.add(&terms)
     }
 
     /// `B'(A'(X)) − X` and `A(X) + B(A'(X)) − A'(X) X`, with A and B in this order.

@@ -4,7 +4,7 @@ use crate::notation::{free_letters, Atom, Index, Kind, Names, Node};
 use crate::space::{pairs, Space};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{Expr, Function};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The function of a tensor of rank two that every functional knows.
@@ -142,6 +142,10 @@ pub struct Scope {
     pub definitions: BTreeMap<String, (Vec<char>, Node)>,
     /// Kinds of fields, data and parameters by name.
     pub shapes: BTreeMap<String, Shape>,
+    /// Constitutive functions by name, where another file of the same space states others of that name.
+    pub functions: BTreeMap<String, usize>,
+    /// Those that may be any here, though another file of the same space states a formula.
+    pub any: BTreeSet<usize>,
 }
 
 impl Names for Scope {
@@ -164,7 +168,7 @@ impl Names for Scope {
         if name == DETERMINANT {
             return Some(2);
         }
-        let at = self.space.function_named(name)?;
+        let at = self.function_named(name)?;
         Some(self.space.function_at(at).rank)
     }
 
@@ -188,6 +192,12 @@ impl Names for Scope {
 pub type Places = BTreeMap<char, usize>;
 
 impl Scope {
+    /// The constitutive function of a name.
+    pub fn function_named(&self, name: &str) -> Option<usize> {
+        let own = self.functions.get(name).copied();
+        own.or_else(|| self.space.function_named(name))
+    }
+
     /// All components of an expression, its free letters in the given order, the last running fastest.
     pub fn components(&self, node: &Node, letters: &[char]) -> Vec<Expr> {
         let d = self.space.dimensions();
@@ -364,7 +374,7 @@ impl Scope {
         if atom.name == DETERMINANT {
             return self.determinant(argument);
         }
-        let Some(function) = self.space.function_named(&atom.name) else {
+        let Some(function) = self.function_named(&atom.name) else {
             return g.zero();
         };
         let arguments = self.argument(function, argument);
@@ -375,7 +385,8 @@ impl Scope {
             rank => indices.chunks(rank).map(|one| slot(rank, one, d)).collect(),
         };
         // Of functions that undo each other nothing but that is used; of others the formula.
-        let is_opaque = own.conjugate.is_some() && self.space.undoing(function).is_some();
+        let is_undone = own.conjugate.is_some() && self.space.undoing(function).is_some();
+        let is_opaque = is_undone || self.any.contains(&function);
         let stated = if is_opaque {
             None
         } else {

@@ -1,8 +1,9 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
 use super::modulo::{equations, vanishing_difference, STATED};
+use super::special::{instance, put_in, unfit, without_conjugates};
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::{Functional, Piece, Relation, Role, Special, SpecialKind};
+use crate::functional::{Functional, Piece, Relation, Role, Special};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -49,8 +50,8 @@ impl Claim for Degeneration {
         });
         match found {
             Some((functional, other, values)) => {
-                if let Some(stated) = other_value(functional, values) {
-                    return Verdict::not_applicable("parameters", stated).into();
+                if let Some(unfit) = unfit(functional, values) {
+                    return unfit.into();
                 }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();
                 let how = format!("with {}", told.join(", "));
@@ -58,51 +59,20 @@ impl Claim for Degeneration {
                     functional,
                     other,
                     how: &how,
+                    values,
                     is_descent: false,
                 };
-                comparison.decided(&|e| put_in(functional, values, e))
+                let found = comparison.decided(&|e| put_in(functional, values, e));
+                let of_pieces = functional.pieces.iter().chain(&other.pieces);
+                let densities = of_pieces.map(|piece| piece.density);
+                let densities = densities.chain([functional.density, other.density]);
+                let es: Vec<Expr> = densities.map(|e| put_in(functional, values, e)).collect();
+                let verdict = without_conjugates(functional, values, &es, found.verdict);
+                Finding { verdict, ..found }
             }
             None => Verdict::undecided("there is no such degeneration").into(),
         }
     }
-}
-
-/// The value that is stated for a parameter for which another one is to be put in.
-pub(super) fn other_value(functional: &Functional, values: &[Special]) -> Option<String> {
-    let g = &functional.space.graph;
-    let stated = functional.values();
-    let pairs = values.iter().flat_map(|special| match &special.what {
-        SpecialKind::Symbols(pairs) => pairs.as_slice(),
-        SpecialKind::Size | SpecialKind::Function { .. } => &[],
-    });
-    let mut other = pairs.filter_map(|(symbol, special)| {
-        let (_, value) = stated.iter().find(|(own, _)| own == symbol)?;
-        let differs = !g.is_zero(g.sub(*value, *special));
-        differs.then(|| format!("{} = {} is stated", g.text(*symbol), g.text(*value)))
-    });
-    other.next()
-}
-
-/// An expression with special values.
-pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Expr {
-    let space = &*functional.space;
-    values.iter().fold(e, |e, special| match &special.what {
-        SpecialKind::Size => e,
-        SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
-            let own = space.graph.symbol_expr(symbol);
-            pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r)
-        }),
-        SpecialKind::Function { function, value } => {
-            let slots = space.slots(*function);
-            space.replace_function(e, *function, &|arguments| {
-                space.replace(*value, &|symbol| {
-                    let own = space.graph.symbol_expr(symbol);
-                    let at = slots.iter().position(|&s| s == own)?;
-                    arguments.get(at).copied()
-                })
-            })
-        }
-    })
 }
 
 /// How the densities of two functionals are to agree.
@@ -113,6 +83,8 @@ pub(super) struct Comparison<'f> {
     pub other: &'f Functional,
     /// What was done, in words.
     pub how: &'f str,
+    /// The special values that were put in.
+    pub values: &'f [Special],
     /// Whether the other functional is one level below: what it imposes is then said in the fields of the first, and on the boundary a
     /// difference may be of second order in stated equations, so that neither the value of the functional where they hold nor its first
     /// variation there depends on it.
@@ -141,6 +113,7 @@ impl Comparison<'_> {
             places.push((Some(piece.name.as_str()), own.density, piece.density));
         }
         for (on, own, wanted) in places {
+            let wanted = instance((functional, self.values), other, wanted);
             let difference = space.unified(g.sub(change(own), wanted));
             let place =
                 on.map_or_else(|| "in the interior".to_owned(), |name| format!("on {name}"));

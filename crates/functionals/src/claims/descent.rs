@@ -87,6 +87,7 @@ fn descended(functional: &Functional, above: &Functional, imposed: &[String]) ->
         functional: above,
         other: functional,
         how: &how,
+        values: &[],
         is_descent: true,
     };
     comparison.decided(&|e: Expr| {

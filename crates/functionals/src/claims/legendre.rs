@@ -52,6 +52,10 @@ impl Claim for Legendre {
             let mut all = functional.functions.iter();
             all.any(|f| f.function == function && f.value.is_some())
         };
+        let is_half_stated = |function: usize| {
+            let mut all = functional.functions.iter();
+            all.any(|f| f.function == function && f.gradient.is_some())
+        };
         let name = |function: usize| space.function_at(function).name;
         match space.conjugation(own.function) {
             Some(verdict @ Verdict::NotApplicable { .. }) => verdict.into(),
@@ -61,10 +65,15 @@ impl Claim for Legendre {
             _ if space.determinant_of(other).is_some() => {
                 computed(&own.name, &name(other), &own.name)
             }
-            _ if !is_stated(other) => assumed(&name(other), &own.name),
-            _ if !is_stated(own.function) => assumed(&own.name, &own.name),
+            _ if !is_stated(other) && !is_half_stated(other) => assumed(&name(other), &own.name),
+            _ if !is_stated(own.function) && !is_half_stated(own.function) => {
+                assumed(&own.name, &own.name)
+            }
             Some(verdict) => verdict.into(),
-            None => assumed(&name(other), &own.name),
+            None => Verdict::undecided(
+                "the relation is assumed: one of the functions has a gradient and no value",
+            )
+            .into(),
         }
     }
 }

@@ -14,6 +14,7 @@ mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
 mod solution;
+mod special;
 
 use self::admission::Admission;
 use crate::functional::{Functional, Problem};

@@ -4,7 +4,7 @@ use super::reduction::restricted;
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Functional, Role};
-use crate::space::{Jet, Space};
+use crate::space::{not_sought, Jet, Space};
 use crate::variation::{euler_expression, flux, Form, Variation};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{rational, simplify, Expr, Rational, Verdict};
@@ -170,7 +170,7 @@ pub fn current(functional: &Functional, name: &str) -> Option<Current> {
     let own = generators(functional)
         .into_iter()
         .find(|own| own.name == name)?;
-    let (own, _) = settled(functional, own);
+    let (own, ..) = settled(functional, own);
     current_of(functional, &own)
 }
 
@@ -274,9 +274,11 @@ fn prolonged(space: &Space, own: &Generator, jet: &Jet) -> Expr {
 }
 
 /// A scaling with the exponents of its fields, and what they are in words.
-fn settled(functional: &Functional, own: Generator) -> (Generator, String) {
+/// A generator with exponents where it is a scaling, what is said of them, and where none were found a function whose values are not known
+/// well enough to say that there are none.
+fn settled(functional: &Functional, own: Generator) -> (Generator, String, Option<String>) {
     if !own.is_scaling {
-        return (own, String::new());
+        return (own, String::new(), None);
     }
     let scaling = Scaling::new(functional, &own);
     let found = scaling.exponents();
@@ -287,7 +289,12 @@ fn settled(functional: &Functional, own: Generator) -> (Generator, String) {
     };
     let eta = scaling.components.iter().zip(&found.values).map(own_eta);
     let eta = eta.collect();
-    (Generator { eta, ..own }, scaling.told(&found))
+    let open = (!found.exist).then(|| space.unsettled(space.explicit(functional.density)));
+    (
+        Generator { eta, ..own },
+        scaling.told(&found),
+        open.flatten(),
+    )
 }
 
 /// The exponents by which the components of the fields are scaled: unknowns in which the defect is affine, `S = S_0 + Σ ε_c S_c`.
@@ -597,7 +604,7 @@ fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Fi
     let space = &*functional.space;
     let g = &space.graph;
     let words = own.words.clone();
-    let (own, scaled) = settled(functional, own);
+    let (own, scaled, open) = settled(functional, own);
     let Some(current) = current_of(functional, &own) else {
         return Verdict::undecided("the density contains derivatives of higher order than two")
             .into();
@@ -629,6 +636,10 @@ fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Fi
         .into();
     }
     let verdict = on_solutions(functional, variation, &current, &format!("{words}{scaled}"));
+    let verdict = match (verdict, open) {
+        (Verdict::Refuted(_), Some(function)) => Verdict::undecided(not_sought(&function)),
+        (verdict, _) => verdict,
+    };
     Finding {
         verdict,
         formulas: formulas(functional, &current),

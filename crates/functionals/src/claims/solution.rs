@@ -1,7 +1,7 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
-use super::degeneration::{other_value, put_in};
 use super::reduction::{reduced, restricted};
+use super::special::{put_in, unfit, without_conjugates};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
@@ -46,8 +46,8 @@ impl Claim for Stated {
         let own = all.find(|solution| Some(solution.name.as_str()) == subject);
         match (own, &cx.variation) {
             (Some(own), Ok(variation)) => {
-                if let Some(stated) = other_value(cx.functional(), &own.values) {
-                    return Verdict::not_applicable("parameters", stated).into();
+                if let Some(unfit) = unfit(cx.functional(), &own.values) {
+                    return unfit.into();
                 }
                 let inserted = Inserted {
                     functional: cx.functional(),
@@ -117,7 +117,9 @@ impl Inserted<'_> {
             match space.vanishing_under(&[e], true, &inside) {
                 Verdict::Proved(_) => {}
                 other => {
-                    return other.prefixed(&format!("{what} does not hold for the stated fields"))
+                    let values = &self.solution.values;
+                    let other = without_conjugates(self.functional, values, &[e], other);
+                    return other.prefixed(&format!("{what} does not hold for the stated fields"));
                 }
             }
         }

@@ -169,7 +169,7 @@ impl Densities {
         let Kind::Atom(atom) = &body.kind else {
             return false;
         };
-        let function = self.scope.space.function_named(&atom.name);
+        let function = self.scope.function_named(&atom.name);
         let is_conjugate =
             function.is_some_and(|at| self.scope.space.function_at(at).conjugate.is_some());
         atom.primes == 1 && atom.derivatives.is_empty() && is_conjugate

@@ -4,7 +4,7 @@ use super::{Atom, Index, Kind, Names, Node};
 use crate::tensors::{tuples, DETERMINANT};
 use chetaev_symbolic::syntax::ast::Relation;
 use chetaev_symbolic::syntax::lexer::{tokens, Token, TokenKind};
-use chetaev_symbolic::syntax::names::closest;
+use chetaev_symbolic::syntax::names::{closest, normalized};
 use chetaev_symbolic::syntax::{Diagnostic, Span};
 use chetaev_symbolic::zero::assumptions::Relation as Comparison;
 use chetaev_symbolic::{Function, Rational};
@@ -328,12 +328,12 @@ impl<'a> Reader<'a> {
         let span = next.span;
         self.at += 2;
         let text = span.text(self.text).to_owned();
-        if let Some(axis) = self.names.coordinate(&text) {
+        if let Some(axis) = self.names.coordinate(&normalized(&text)) {
             return Some(vec![Index::Place(axis)]);
         }
         let mut found = Vec::new();
         for letter in text.chars() {
-            let own = letter.to_string();
+            let own = normalized(&letter.to_string());
             match self.names.coordinate(&own) {
                 Some(axis) => found.push(Index::Place(axis)),
                 None => found.push(self.index(letter, span)?),

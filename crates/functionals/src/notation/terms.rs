@@ -287,7 +287,7 @@ impl<'s> Calculus<'s> {
 
     fn linear_application(&self, atom: &Atom, argument: &Node, field: &str) -> Option<Linear> {
         let rank = {
-            let function = self.scope.space.function_named(&atom.name)?;
+            let function = self.scope.function_named(&atom.name)?;
             self.scope.space.function_at(function).rank
         };
         let slots: Vec<char> = (0..rank).map(|_| self.fresh()).collect();

@@ -9,7 +9,7 @@ use chetaev_model::raw::{Kind, Raw, Table};
 use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::{Expr, Verdict};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most dimensions of space.
 const MOST_DIMENSIONS: i64 = 3;
@@ -340,12 +340,17 @@ impl Reader<'_> {
         found
     }
 
-    pub(super) fn functions(&mut self, table: &Table, scope: &Scope) -> Vec<Constitutive> {
+    pub(super) fn functions(&mut self, table: &Table, scope: &mut Scope) -> Vec<Constitutive> {
         let mut found = Vec::new();
         let Some(section) = self.section(table, "functions") else {
             return found;
         };
         let d = scope.space.dimensions();
+        let others = others(section, scope);
+        let of = table.get("name").and_then(Raw::expression);
+        let of = of
+            .map_or("the other", |text| text.content.as_str())
+            .to_owned();
         for (key, raw) in &section.entries {
             let (kind, description) = self.described(raw, "of");
             if !self.is_unknown(scope, &key.content, key.place) {
@@ -355,12 +360,23 @@ impl Reader<'_> {
                 continue;
             };
             let multiplicities = shape.components(d).into_iter().map(|(_, m)| m).collect();
+            let name = match others.contains(&key.content) {
+                true => scope.space.unused_function_name(&key.content, &of),
+                false => key.content.clone(),
+            };
+            let written = written(raw, &scope.sizes);
+            let is_any = written.is_none();
             let function = scope.space.function(Function {
-                name: key.content.clone(),
+                name,
                 rank: shape.rank(),
                 multiplicities,
                 conjugate: None,
+                written,
             });
+            if is_any {
+                scope.any.insert(function);
+            }
+            scope.functions.insert(key.content.clone(), function);
             let own = raw.table();
             let mut text = |key: &str| {
                 own.and_then(|own| self.optional(own, key))
@@ -377,7 +393,7 @@ impl Reader<'_> {
         }
         for own in &found {
             let Some(name) = &own.conjugate else { continue };
-            match scope.space.function_named(name) {
+            match scope.function_named(name) {
                 Some(other) => scope.space.conjugate(own.function, other),
                 None => {
                     let raw = section.get(&own.name);
@@ -446,15 +462,8 @@ impl Reader<'_> {
         let g = &space.graph;
         let slots = space.slots(own.function);
         let is_refuted = |e: Expr| matches!(space.vanishing(&[e], true), Verdict::Refuted(_));
-        // With parameters or other functions in it, it is a condition on these.
-        let own_alone = |e: Expr| {
-            let symbols: Vec<Expr> = g
-                .symbols_in(&[e])
-                .iter()
-                .map(|&s| g.symbol_expr(s))
-                .collect();
-            symbols.iter().all(|s| slots.contains(s))
-        };
+        // With other functions in it, it is a condition on these.
+        let is_free = |e: Expr| space.functions_in(e).is_empty();
         for (k, &value) in values.iter().enumerate() {
             let of_value = space.body(own.function, &[k], &slots);
             if of_value.is_some_and(|e| is_refuted(g.sub(e, value))) {
@@ -475,16 +484,78 @@ impl Reader<'_> {
         for k in 0..values.len() {
             for l in 0..k {
                 let difference = g.sub(slope(k, l), slope(l, k));
-                if own_alone(difference) && is_refuted(difference) {
+                if is_free(difference) && is_refuted(difference) {
                     let message = format!(
                         "this is the gradient of no function: its slopes are not symmetric, so that `{}` does not exist",
                         own.name
                     );
-                    self.push(Diagnostic::error("bad-gradient", text.place, message));
+                    let mut diagnostic = Diagnostic::error("bad-gradient", text.place, message);
+                    let has_others = g
+                        .symbols_in(&[difference])
+                        .into_iter()
+                        .any(|s| !slots.contains(&g.symbol_expr(s)));
+                    if has_others {
+                        diagnostic = diagnostic.hint("for some values of the parameters they are: constants c_ijkl of the kind \"elastic\" are symmetric in their pairs");
+                    }
+                    self.push(diagnostic);
                     return;
                 }
             }
         }
+    }
+}
+
+/// How a function is stated, as it is written; nothing where it may be any.
+fn written(raw: &Raw, sizes: &BTreeMap<String, i64>) -> Option<String> {
+    let own = raw.table()?;
+    let text = |key: &str| Some(own.get(key)?.expression()?.content.clone());
+    let (value, gradient) = (text("value"), text("gradient"));
+    let is_stated = value.is_some() || gradient.is_some();
+    let occurs = |name: &String| {
+        let all = [&value, &gradient].into_iter().flatten();
+        let mut names = all.flat_map(|text| text.split(|sign: char| !sign.is_alphanumeric()));
+        names.any(|own| own == name)
+    };
+    let sizes: Vec<_> = sizes.iter().filter(|(name, _)| occurs(name)).collect();
+    is_stated.then(|| format!("{:?} {value:?} {gradient:?} {sizes:?}", text("argument")))
+}
+
+/// The functions of a file that are others than those of the same name that the space has already: they are stated otherwise, or by
+/// one that is, or are the conjugate of one. One that may be any function is the one that the space has.
+fn others(section: &Table, scope: &Scope) -> BTreeSet<String> {
+    let is_stated_otherwise = |(key, raw): &&(Text, Raw)| {
+        let known = scope.space.function_named(&key.content);
+        let own = written(raw, &scope.sizes);
+        known.is_some_and(|at| own.is_some() && scope.space.function_at(at).written != own)
+    };
+    let stated = section.entries.iter().filter(is_stated_otherwise);
+    let mut found: BTreeSet<String> = stated.map(|(key, _)| key.content.clone()).collect();
+    let uses = |raw: &Raw, found: &BTreeSet<String>| {
+        let texts = ["value", "gradient", "conjugate"]
+            .into_iter()
+            .filter_map(|key| raw.table()?.get(key)?.expression());
+        let is_sign = |sign: char| !sign.is_alphanumeric();
+        let mut names = texts.flat_map(move |text| text.content.split(is_sign));
+        names.any(|name| found.contains(name))
+    };
+    loop {
+        let next = section.entries.iter().find(|(key, raw)| {
+            let is_conjugate = || {
+                let mut all = section.entries.iter();
+                all.any(|(other, raw)| {
+                    let own = raw
+                        .table()
+                        .and_then(|own| own.get("conjugate")?.expression());
+                    found.contains(&other.content)
+                        && own.is_some_and(|own| own.content == key.content)
+                })
+            };
+            !found.contains(&key.content) && (uses(raw, &found) || is_conjugate())
+        });
+        match next {
+            Some((key, _)) => found.insert(key.content.clone()),
+            None => return found,
+        };
     }
 }
 

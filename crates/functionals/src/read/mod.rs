@@ -23,7 +23,7 @@ use chetaev_model::{tables, Diagnostic, Diagnostics, Files, Place, Sources, Text
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::syntax::Span;
 use chetaev_symbolic::Expr;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 pub(crate) use statements::on_side;
@@ -184,6 +184,8 @@ impl Reader<'_> {
             sizes,
             definitions: BTreeMap::new(),
             shapes: BTreeMap::new(),
+            functions: BTreeMap::new(),
+            any: BTreeSet::new(),
         };
         let read = self.stated(table, place, scope);
         let errors = self.problems[before..].iter();

@@ -53,7 +53,8 @@ fn inside(key: &str, raw: &mut Raw) {
         Kind::Array(items) if VALUES.contains(&key) => {
             items.iter_mut().for_each(|item| inside(key, item));
         }
-        Kind::Table(table) => {
+        // Pieces of the boundary are named as the user names them.
+        Kind::Table(table) if key != "pieces" => {
             for (own, raw) in &mut table.entries {
                 inside(&own.content, raw);
                 own.content = normalized(&own.content);

@@ -214,7 +214,7 @@ impl Reader<'_> {
         let text = self.text_of(raw, &key.content)?;
         let written = format!("{} = {}", key.content, text.content);
         if let Some((name, argument)) = key.content.split_once('(') {
-            let function = scope.space.function_named(name.trim());
+            let function = scope.function_named(name.trim());
             let Some(function) = function else {
                 let message = format!("`{name}` is not a constitutive function");
                 self.push(Diagnostic::error("unknown-name", key.place, message));

@@ -194,7 +194,7 @@ impl Reader<'_> {
 /// A value for a field that this functional does not have is none of its.
 fn is_known(functional: &Functional, name: &Text) -> bool {
     if let Some((function, _)) = name.content.split_once('(') {
-        return functional.space.function_named(function.trim()).is_some();
+        return functional.scope.function_named(function.trim()).is_some();
     }
     let mut problems = Vec::new();
     parse(&name.content, &functional.scope, &mut problems);

@@ -32,7 +32,7 @@ impl Reader<'_> {
                     .hint("add [fields] with, for example, u = \"vector\""),
             );
         }
-        let functions = self.functions(table, &scope);
+        let functions = self.functions(table, &mut scope);
         if self.has_refused_names(before) {
             return None;
         }
@@ -332,8 +332,13 @@ impl Reader<'_> {
                 Some(name) => (name, true),
                 None => (text.content.as_str(), false),
             };
-            let Some(tensor) = scope.tensors.get(name) else {
-                let message = format!("`{name}` is not a field");
+            let is_definition = scope.definitions.contains_key(name);
+            let tensor = scope.tensors.get(name).filter(|_| !is_definition);
+            let Some(tensor) = tensor else {
+                let message = match is_definition {
+                    true => format!("`{name}` is a definition, not a field: `fixed` names the fields that are given"),
+                    false => format!("`{name}` is not a field"),
+                };
                 let diagnostic = Diagnostic::error("unknown-name", text.place, message);
                 let of_field = name.split_once(',').map(|(field, _)| field);
                 let of_field = of_field.filter(|field| scope.tensors.contains_key(*field));
@@ -346,7 +351,12 @@ impl Reader<'_> {
                 continue;
             };
             let jets = scope.space.jets_in(&tensor.components);
-            found.extend(jets.into_iter().map(|jet| (jet.component, is_normal)));
+            let given = jets.into_iter().map(|jet| (jet.component, is_normal));
+            let given: Vec<(usize, bool)> = given.collect();
+            if given.iter().any(|own| found.contains(own)) {
+                self.is_twice(&text.content, text.place);
+            }
+            found.extend(given);
         }
         found
     }

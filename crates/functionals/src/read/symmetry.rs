@@ -24,7 +24,7 @@ pub(super) fn check(scope: &Scope, node: &Node, problems: &mut Vec<Diagnostic>) 
 }
 
 fn argument(scope: &Scope, atom: &Atom, problems: &mut Vec<Diagnostic>) {
-    let function = scope.space.function_named(&atom.name);
+    let function = scope.function_named(&atom.name);
     let (Some(node), Some(function)) = (&atom.argument, function) else {
         return;
     };

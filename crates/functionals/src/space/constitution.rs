@@ -18,6 +18,8 @@ pub struct Function {
     pub multiplicities: Vec<i64>,
     /// The Legendre conjugate.
     pub conjugate: Option<usize>,
+    /// How its values are stated, as it is written; nothing where it may be any function.
+    pub written: Option<String>,
 }
 
 /// A constitutive function, differentiated and applied.
@@ -45,6 +47,28 @@ impl Space {
         }
         all.push(function);
         all.len() - 1
+    }
+
+    /// A name for a function of another file that is not the one that the space has by this name.
+    pub fn unused_function_name(&self, name: &str, of: &str) -> String {
+        let mut own = format!("{name} of {of}");
+        while self.function_named(&own).is_some() {
+            own.push('*');
+        }
+        own
+    }
+
+    /// A value in the place-holders of a function, at arguments.
+    pub(crate) fn at_arguments(&self, function: usize, value: Expr, arguments: &[Expr]) -> Expr {
+        self.put_in(&self.slots(function), value, arguments)
+    }
+
+    /// The gradient of a value in the place-holders of a function.
+    pub(crate) fn gradient_of_value(&self, function: usize, value: Expr) -> Vec<Expr> {
+        let slots = self.slots(function);
+        let rule = |arguments: &[Expr]| self.put_in(&slots, value, arguments);
+        let slope = |k: usize| self.derived_rule(function, &[k], &slots, &rule);
+        (0..slots.len()).map(slope).collect()
     }
 
     /// Declares two functions as Legendre conjugates.
@@ -175,10 +199,15 @@ impl Space {
         if let Some(&known) = self.known.borrow().get(&application) {
             return known;
         }
+        // What is asked for while it is looked for stands for itself.
+        if !self.sought.borrow_mut().insert(application.clone()) {
+            return self.intern(&application);
+        }
         let value = self
             .conjugated(&application)
             .or_else(|| self.by_gradient(&application))
             .unwrap_or_else(|| self.intern(&application));
+        self.sought.borrow_mut().remove(&application);
         self.known.borrow_mut().insert(application, value);
         value
     }
@@ -327,6 +356,19 @@ impl Space {
     pub(crate) fn is_known_alone(&self, function: usize) -> bool {
         let other = self.function_at(function).conjugate;
         self.is_known(function) && other.is_some_and(|own| !self.is_known(own))
+    }
+
+    /// A function in an expression of which the values are not free and not given by a formula either: they are known through the conjugate,
+    /// or up to a constant through the gradient.
+    pub(crate) fn unsettled(&self, e: Expr) -> Option<String> {
+        let is_half_known = |own: usize| {
+            let other = self.function_at(own).conjugate;
+            let by_gradient = !self.bodies.borrow().contains_key(&own) && self.is_known(own);
+            by_gradient || other.is_some_and(|other| self.is_known_alone(other))
+        };
+        let mut applied = self.functions_in(e).into_iter();
+        let own = applied.find(|&own| is_half_known(own))?;
+        Some(self.function_at(own).name)
     }
 
     /// Whether a function is stated by formulas, if through other functions.

@@ -12,6 +12,7 @@ mod constitution;
 mod zero;
 
 pub use constitution::Function;
+pub(crate) use zero::not_sought;
 
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
@@ -72,6 +73,8 @@ pub struct Space {
     jets: RefCell<BTreeMap<Symbol, Jet>>,
     applications: RefCell<BTreeMap<Symbol, Application>>,
     known: RefCell<BTreeMap<Application, Expr>>,
+    /// Applications whose values are being looked for.
+    sought: RefCell<BTreeSet<Application>>,
     /// The determinants of linear gradients from which the conjugate was computed, or which have none.
     determinants: RefCell<BTreeMap<usize, Expr>>,
     /// Whether pairs of functions are conjugates by their formulas; nothing where one has none.
@@ -125,6 +128,7 @@ impl Space {
             jets: RefCell::default(),
             applications: RefCell::default(),
             known: RefCell::default(),
+            sought: RefCell::default(),
             determinants: RefCell::default(),
             conjugations: RefCell::default(),
             assumptions: RefCell::default(),

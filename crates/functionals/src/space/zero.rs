@@ -110,14 +110,12 @@ impl Space {
         refute: bool,
         assumed: &Assumptions,
     ) -> Verdict {
-        let mut known = residuals.iter().filter_map(|&e| self.known_by_conjugate(e));
-        let known = known.next().filter(|_| refute);
-        let found = self.vanishing_as_written(residuals, refute && known.is_none(), assumed);
-        match (found, known) {
+        let mut unsettled = residuals.iter().filter_map(|&e| self.unsettled(e));
+        let unsettled = unsettled.next().filter(|_| refute);
+        let found = self.vanishing_as_written(residuals, refute && unsettled.is_none(), assumed);
+        match (found, unsettled) {
             (Verdict::Proved(proof), _) => Verdict::Proved(proof),
-            (_, Some(function)) => Verdict::undecided(format!(
-                "the values of {function} are known through its conjugate alone, so that no counterexample was sought"
-            )),
+            (_, Some(function)) => Verdict::undecided(not_sought(&function)),
             (found, None) => found,
         }
     }
@@ -212,4 +210,11 @@ impl Space {
 /// The name of a coordinate on the sphere of normals, from the second on.
 fn on_chart(i: usize) -> String {
     format!("normal_{i}")
+}
+
+/// Why no counterexample is sought where a function occurs whose values are neither free nor given by a formula.
+pub(crate) fn not_sought(function: &str) -> String {
+    format!(
+        "the values of {function} are known through its conjugate or its gradient alone, so that no counterexample was sought"
+    )
 }

@@ -11,6 +11,7 @@ mod conjugates;
 mod curved;
 mod degenerations;
 mod examples;
+mod half_known;
 mod indexed;
 mod methods;
 mod mutants;

@@ -1,6 +1,6 @@
 //! The second variation as a quadratic form on an interval.
 
-use super::super::degeneration::{other_value, put_in};
+use super::super::special::{put_in, unfit};
 use crate::functional::{Functional, Interval, Role, Side, Solution, Special, SpecialKind};
 use crate::read::on_side;
 use crate::space::Jet;
@@ -43,8 +43,8 @@ fn not_applicable(why: String) -> Box<Verdict> {
 impl<'f> Form<'f> {
     pub(super) fn of(functional: &'f Functional, solution: &'f Solution) -> Step<Form<'f>> {
         let space = &*functional.space;
-        if let Some(stated) = other_value(functional, &solution.values) {
-            return Err(Box::new(Verdict::not_applicable("parameters", stated)));
+        if let Some(unfit) = unfit(functional, &solution.values) {
+            return Err(Box::new(unfit));
         }
         if let Some(own) = functional.with_role(Role::Imposed).next() {
             let said = format!("({}) is imposed, so that not all variations are admitted; the condition of Jacobi for these is not decided", own.label);

@@ -1,0 +1,134 @@
+//! Special values of parameters, fields and constitutive functions, put in for what they replace.
+
+use crate::functional::{Constitutive, Functional, Special, SpecialKind};
+use crate::space::not_sought;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// Why special values are none of this functional: another value is stated for a parameter or a function, or functions are put in for
+/// conjugates that are none of each other.
+pub(super) fn unfit(functional: &Functional, values: &[Special]) -> Option<Verdict> {
+    if let Some(stated) = stated_otherwise(functional, values) {
+        return Some(Verdict::not_applicable("parameters", stated));
+    }
+    let space = &*functional.space;
+    let all: Vec<(usize, Expr)> = functions(values).collect();
+    all.iter().find_map(|&(function, value)| {
+        let other = space.function_at(function).conjugate?;
+        let &(_, conjugate) = all.iter().find(|(own, _)| *own == other)?;
+        let names = [function, other].map(|own| space.function_at(own).name);
+        match space.are_conjugates((function, value), conjugate) {
+            Verdict::Proved(_) => None,
+            Verdict::Refuted(_) => Some(Verdict::not_applicable(
+                format!("functional.legendre#{}", names[0]),
+                format!(
+                    "what is put in for {} and {} are no conjugates",
+                    names[0], names[1]
+                ),
+            )),
+            _ => Some(Verdict::undecided(format!(
+                "whether what is put in for {} and {} are conjugates was not decided",
+                names[0], names[1]
+            ))),
+        }
+    })
+}
+
+/// A value that is stated, and is another than the one that is to be put in.
+fn stated_otherwise(functional: &Functional, values: &[Special]) -> Option<String> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let stated = functional.values();
+    let pairs = values.iter().flat_map(|special| match &special.what {
+        SpecialKind::Symbols(pairs) => pairs.as_slice(),
+        SpecialKind::Size | SpecialKind::Function { .. } => &[],
+    });
+    let mut other = pairs.filter_map(|(symbol, special)| {
+        let (_, value) = stated.iter().find(|(own, _)| own == symbol)?;
+        let differs = !g.is_zero(g.sub(*value, *special));
+        differs.then(|| format!("{} = {} is stated", g.text(*symbol), g.text(*value)))
+    });
+    other.next().or_else(|| {
+        let mut all = functions(values);
+        all.find_map(|(function, value)| {
+            let own = space.body(function, &[], &space.slots(function))?;
+            let is_same = space.vanish(&[g.sub(own, value)]);
+            let name = space.function_at(function).name;
+            (!is_same).then(|| format!("another value of {name} is stated"))
+        })
+    })
+}
+
+fn functions(values: &[Special]) -> impl Iterator<Item = (usize, Expr)> + '_ {
+    values.iter().filter_map(|special| match special.what {
+        SpecialKind::Function { function, value } => Some((function, value)),
+        SpecialKind::Size | SpecialKind::Symbols(_) => None,
+    })
+}
+
+/// An expression with special values: functions first, with those conjugates that are computed from them, then symbols, which may occur
+/// in what is put in for functions.
+pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Expr {
+    let space = &*functional.space;
+    let mut all: Vec<(usize, Expr)> = functions(values).collect();
+    for (function, value) in functions(values) {
+        let other = space.function_at(function).conjugate;
+        let other = other.filter(|other| all.iter().all(|(own, _)| own != other));
+        all.extend(other.zip(space.conjugate_of_value(function, value)));
+    }
+    let e = all.iter().fold(space.explicit(e), |e, &(function, value)| {
+        space.replace_function(e, function, &|arguments| {
+            space.at_arguments(function, value, arguments)
+        })
+    });
+    values.iter().fold(e, |e, special| match &special.what {
+        SpecialKind::Size | SpecialKind::Function { .. } => e,
+        SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
+            let own = space.graph.symbol_expr(symbol);
+            pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r)
+        }),
+    })
+}
+
+/// An expression of another functional that is one for every function: for those of this one with the special values.
+pub(super) fn instance(
+    (functional, values): (&Functional, &[Special]),
+    other: &Functional,
+    e: Expr,
+) -> Expr {
+    let space = &*functional.space;
+    let is_any = |own: &&Constitutive| own.value.is_none() && own.gradient.is_none();
+    let any = other.functions.iter().filter(is_any);
+    any.fold(e, |e, own| {
+        let function = own.function;
+        let Some(value) = space.body(function, &[], &space.slots(function)) else {
+            return e;
+        };
+        let value = put_in(functional, values, value);
+        space.replace_function(e, function, &|arguments| {
+            space.at_arguments(function, value, arguments)
+        })
+    })
+}
+
+/// A verdict on expressions with special values: nothing is refuted where a conjugate of what was put in occurs, whose values are not free.
+pub(super) fn without_conjugates(
+    functional: &Functional,
+    values: &[Special],
+    es: &[Expr],
+    verdict: Verdict,
+) -> Verdict {
+    if !matches!(verdict, Verdict::Refuted(_)) {
+        return verdict;
+    }
+    let space = &*functional.space;
+    let occurring = es.iter().flat_map(|&e| space.functions_in(e));
+    let put: Vec<usize> = functions(values).map(|(own, _)| own).collect();
+    let mut left = occurring.filter(|&own| {
+        let other = space.function_at(own).conjugate;
+        other.is_some_and(|other| put.contains(&other))
+    });
+    match left.next() {
+        Some(own) => Verdict::undecided(not_sought(&space.function_at(own).name)),
+        None => verdict,
+    }
+}
