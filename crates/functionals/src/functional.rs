@@ -252,13 +252,36 @@ impl Functional {
             .filter_map(|p| Some((g.symbol(&p.name, 0), p.value?)))
             .collect()
     }
+
+    /// Whether another functional is one over the same body, with the values that each states: where one is stated over any body it is.
+    pub fn is_over_the_body_of(&self, other: &Functional) -> bool {
+        let g = &self.space.graph;
+        let ends = |own: &Functional| -> Vec<(usize, Expr, Expr)> {
+            let values = own.values();
+            let at = |e: Expr| g.substitute(e, &values);
+            let all = own.intervals.iter();
+            let mut ends: Vec<_> = all.map(|i| (i.axis, at(i.lower), at(i.upper))).collect();
+            ends.sort_by_key(|(axis, ..)| *axis);
+            ends
+        };
+        let (here, there) = (ends(self), ends(other));
+        let is_same = |(a, b): (&(usize, Expr, Expr), &(usize, Expr, Expr))| {
+            a.0 == b.0 && self.space.vanish(&[g.sub(a.1, b.1), g.sub(a.2, b.2)])
+        };
+        here.is_empty()
+            || there.is_empty()
+            || here.len() == there.len() && here.iter().zip(&there).all(is_same)
+    }
 }
 
-/// A relation to another functional.
+/// A relation to another functional. Both are read onto symbols of their own: what the other file states is nothing that is known of the
+/// functional for itself.
 #[derive(Debug)]
 pub enum Relation {
     /// The sum with the other is a divergence.
     Duality {
+        /// The functional itself, on the symbols of both.
+        own: Box<Functional>,
         /// The other.
         other: Functional,
         /// The vector whose divergence the sum of the densities is.
@@ -266,6 +289,8 @@ pub enum Relation {
     },
     /// The functional follows from the other by imposing some of its equations.
     Descent {
+        /// The functional itself, on the symbols of both.
+        own: Box<Functional>,
         /// The other, one level above.
         other: Functional,
         /// Labels of the equations that are imposed on it.
@@ -277,8 +302,8 @@ pub enum Relation {
     Degeneration {
         /// What is special.
         name: String,
-        /// The functional itself, with special sizes where there are some.
-        own: Option<Box<Functional>>,
+        /// The functional itself, on the symbols of both, with special sizes where there are some.
+        own: Box<Functional>,
         /// The other.
         other: Functional,
         /// Values put in.

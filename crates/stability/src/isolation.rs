@@ -33,7 +33,31 @@ impl Root {
             return format!("{{{}}}", self.low);
         }
         let (low, high) = self.decimal_bounds();
-        format!("[{low}, {high}]")
+        format!("[{}, {}]", without_power(&low), without_power(&high))
+    }
+}
+
+/// A decimal number of usual size without a power of ten: `4.2924e0` as 4.2924, `4.6e-1` as 0.46.
+fn without_power(decimal: &str) -> String {
+    let parts = decimal.split_once('e');
+    let parts = parts.and_then(|(digits, power)| Some((digits, power.parse::<i32>().ok()?)));
+    let Some((digits, power)) = parts.filter(|(_, power)| (-4..=9).contains(power)) else {
+        return decimal.into();
+    };
+    let (sign, digits) = match digits.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", digits),
+    };
+    let (whole, rest) = digits.split_once('.').unwrap_or((digits, ""));
+    let all = format!("{whole}{rest}");
+    let point = whole.len() as i32 + power;
+    if point <= 0 {
+        return format!("{sign}0.{}{all}", "0".repeat(point.unsigned_abs() as usize));
+    }
+    let point = point.unsigned_abs() as usize;
+    match all.len() <= point {
+        true => format!("{sign}{all}{}", "0".repeat(point - all.len())),
+        false => format!("{sign}{}.{}", &all[..point], &all[point..]),
     }
 }
 
@@ -126,4 +150,27 @@ fn refined(
         }
     }
     Some(Root { low: a, high: b })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_power;
+
+    #[test]
+    fn numbers_of_usual_size_have_no_power() {
+        let pairs = [
+            ("4.2924e0", "4.2924"),
+            ("-4.6475e-1", "-0.46475"),
+            ("1.5e3", "1500"),
+            ("1.2345e2", "123.45"),
+            ("2e-3", "0.002"),
+            ("1e0", "1"),
+            ("3.1e-12", "3.1e-12"),
+            ("3.1e12", "3.1e12"),
+            ("0", "0"),
+        ];
+        for (written, plain) in pairs {
+            assert_eq!(without_power(written), plain);
+        }
+    }
 }

@@ -7,6 +7,7 @@ use crate::record::zero_word;
 use crate::study::{Decided, Motion, Study};
 use chetaev_mechanics::words;
 use chetaev_mechanics::Group;
+use chetaev_symbolic::Verdict;
 use std::fmt::Write as _;
 
 /// Colours of verdicts, or none.
@@ -114,6 +115,10 @@ pub fn listing(study: &Study, groups: &[Group], style: Style) -> String {
             let word = decided.finding.verdict.word();
             let mark = if decided.is_as_expected() { " " } else { "!" };
             let (said, lines) = plain::listed(decided.finding.verdict.detail());
+            let said = match &decided.finding.verdict {
+                Verdict::Conditional { condition, .. } => format!("where {condition}: {said}"),
+                _ => said,
+            };
             let _ = writeln!(
                 text,
                 "{mark} {:<width$} {}  {}",

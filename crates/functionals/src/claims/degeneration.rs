@@ -1,7 +1,7 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
-use super::modulo::{equations, vanishing_difference, STATED};
-use super::special::{instance, put_in, unfit, without_conjugates};
+use super::modulo::{equations, other_body, vanishing_difference, STATED};
+use super::special::{instance, put_in, unfit, where_settled};
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Piece, Relation, Role, Special};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
@@ -42,10 +42,7 @@ impl Claim for Degeneration {
                 own,
                 other,
                 values,
-            } if Some(name.as_str()) == subject => {
-                let own = own.as_deref().unwrap_or_else(|| cx.functional());
-                Some((own, other, values))
-            }
+            } if Some(name.as_str()) == subject => Some((&**own, other, values)),
             _ => None,
         });
         match found {
@@ -67,7 +64,7 @@ impl Claim for Degeneration {
                 let densities = of_pieces.map(|piece| piece.density);
                 let densities = densities.chain([functional.density, other.density]);
                 let es: Vec<Expr> = densities.map(|e| put_in(functional, values, e)).collect();
-                let verdict = without_conjugates(functional, values, &es, found.verdict);
+                let verdict = where_settled(functional, values, &es, found.verdict);
                 Finding { verdict, ..found }
             }
             None => Verdict::undecided("there is no such degeneration").into(),
@@ -96,6 +93,9 @@ impl Comparison<'_> {
     /// admits: where what it imposes holds. What it yields is no help: with that a functional would be equal to many.
     pub(super) fn decided(&self, change: &dyn Fn(Expr) -> Expr) -> Finding {
         let (functional, other) = (self.functional, self.other);
+        if let Some(verdict) = other_body(functional, other) {
+            return verdict.into();
+        }
         let space = &*functional.space;
         let g = &space.graph;
         let mut notes = Vec::new();

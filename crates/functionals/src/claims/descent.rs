@@ -37,11 +37,16 @@ impl Claim for Descent {
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
         let found = cx.problem.relations.iter().find_map(|r| match r {
-            Relation::Descent { other, imposed, .. } => Some((other, imposed)),
+            Relation::Descent {
+                own,
+                other,
+                imposed,
+                ..
+            } => Some((own, other, imposed)),
             _ => None,
         });
         match found {
-            Some((above, imposed)) => descended(cx.functional(), above, imposed),
+            Some((own, above, imposed)) => descended(own, above, imposed),
             None => Verdict::undecided("no level above is stated").into(),
         }
     }

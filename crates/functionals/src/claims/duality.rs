@@ -1,6 +1,6 @@
 //! `functional.duality`: two functionals add up to a divergence, and to nothing with their boundary terms.
 
-use super::modulo::{equations, labels, vanishing, vanishing_difference, STATED};
+use super::modulo::{equations, labels, other_body, vanishing, vanishing_difference, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::Group;
 use crate::functional::{Functional, Relation, Role, Side};
@@ -38,14 +38,16 @@ impl Claim for Duality {
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
         let found = cx.problem.relations.iter().find_map(|r| match r {
-            Relation::Duality { other, flux } => Some((other, flux.as_ref())),
+            Relation::Duality { own, other, flux } => Some((own, other, flux.as_ref())),
             _ => None,
         });
+        let bodies = found.and_then(|(own, other, _)| other_body(own, other));
+        if let Some(verdict) = bodies {
+            return verdict.into();
+        }
         match found {
-            Some((other, Some((written, flux)))) => {
-                with_flux(cx.functional(), other, written, flux)
-            }
-            Some((other, None)) => without_flux(cx.functional(), other).into(),
+            Some((own, other, Some((written, flux)))) => with_flux(own, other, written, flux),
+            Some((own, other, None)) => without_flux(own, other).into(),
             None => Verdict::undecided("no dual functional is stated").into(),
         }
     }

@@ -5,6 +5,17 @@ use crate::functional::{Functional, Role};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
+/// What is said of functionals over different bodies.
+pub(super) fn other_body(functional: &Functional, other: &Functional) -> Option<Verdict> {
+    let is_same = functional.is_over_the_body_of(other);
+    (!is_same).then(|| {
+        Verdict::undecided(format!(
+            "{} and {} are stated over different bodies, which are not compared",
+            functional.name, other.name
+        ))
+    })
+}
+
 /// All that is stated of a functional.
 pub(super) const STATED: &[Role] = &[Role::Imposed, Role::Yielded, Role::Other];
 

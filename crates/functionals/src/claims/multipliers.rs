@@ -41,7 +41,7 @@ impl Claim for Multipliers {
     }
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
-        let Some((above, imposed, release)) = released(cx) else {
+        let Some((functional, above, imposed, release)) = released(cx) else {
             return Verdict::undecided("nothing is released").into();
         };
         let own = above.equations.iter().find(|e| imposed.contains(&e.label));
@@ -49,7 +49,7 @@ impl Claim for Multipliers {
             return Verdict::undecided("the equation that is imposed is not stated").into();
         };
         let way = Way {
-            functional: cx.functional(),
+            functional,
             above,
             equation,
             release,
@@ -63,16 +63,20 @@ impl Claim for Multipliers {
     }
 }
 
-fn released<'p>(cx: &'p Context<'_>) -> Option<(&'p Functional, &'p [String], &'p Release)> {
+/// The functional, the one above, what is imposed on that, and how it is released.
+type Released<'p> = (&'p Functional, &'p Functional, &'p [String], &'p Release);
+
+fn released<'p>(cx: &'p Context<'_>) -> Option<Released<'p>> {
     cx.problem
         .relations
         .iter()
         .find_map(|relation| match relation {
             Relation::Descent {
+                own,
                 other,
                 imposed,
                 release: Some(release),
-            } => Some((other, imposed.as_slice(), release)),
+            } => Some((&**own, other, imposed.as_slice(), release)),
             _ => None,
         })
 }

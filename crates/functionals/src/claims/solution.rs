@@ -1,7 +1,7 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
 use super::reduction::{reduced, restricted};
-use super::special::{put_in, unfit, without_conjugates};
+use super::special::{put_in, unfit, where_settled};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
@@ -118,7 +118,7 @@ impl Inserted<'_> {
                 Verdict::Proved(_) => {}
                 other => {
                     let values = &self.solution.values;
-                    let other = without_conjugates(self.functional, values, &[e], other);
+                    let other = where_settled(self.functional, values, &[e], other);
                     return other.prefixed(&format!("{what} does not hold for the stated fields"));
                 }
             }
@@ -141,6 +141,8 @@ impl Inserted<'_> {
             match space.vanishing_under(&[difference], true, &inside) {
                 Verdict::Proved(_) => told.push(format!("the value is {written}")),
                 other => {
+                    let values = &self.solution.values;
+                    let other = where_settled(self.functional, values, &[difference], other);
                     let own = space.graph.text(value);
                     return other.prefixed(&format!("the value is {own}, not {written}"));
                 }

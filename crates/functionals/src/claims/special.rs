@@ -2,7 +2,8 @@
 
 use crate::functional::{Constitutive, Functional, Special, SpecialKind};
 use crate::space::not_sought;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+use std::collections::BTreeSet;
 
 /// Why special values are none of this functional: another value is stated for a parameter or a function, or functions are put in for
 /// conjugates that are none of each other.
@@ -75,11 +76,15 @@ pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Ex
         let other = other.filter(|other| all.iter().all(|(own, _)| own != other));
         all.extend(other.zip(space.conjugate_of_value(function, value)));
     }
-    let e = all.iter().fold(space.explicit(e), |e, &(function, value)| {
-        space.replace_function(e, function, &|arguments| {
-            space.at_arguments(function, value, arguments)
+    let each = |e: Expr| {
+        all.iter().fold(e, |e, &(function, value)| {
+            space.replace_function(e, function, &|arguments| {
+                space.at_arguments(function, value, arguments)
+            })
         })
-    });
+    };
+    // One may stand in what is put in for another.
+    let e = (0..all.len()).fold(space.explicit(e), |e, _| each(e));
     values.iter().fold(e, |e, special| match &special.what {
         SpecialKind::Size | SpecialKind::Function { .. } => e,
         SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
@@ -110,8 +115,9 @@ pub(super) fn instance(
     })
 }
 
-/// A verdict on expressions with special values: nothing is refuted where a conjugate of what was put in occurs, whose values are not free.
-pub(super) fn without_conjugates(
+/// A verdict on expressions with special values: nothing is refuted where a function is left that is known through what was put in, whose
+/// values are not free.
+pub(super) fn where_settled(
     functional: &Functional,
     values: &[Special],
     es: &[Expr],
@@ -121,13 +127,15 @@ pub(super) fn without_conjugates(
         return verdict;
     }
     let space = &*functional.space;
-    let occurring = es.iter().flat_map(|&e| space.functions_in(e));
-    let put: Vec<usize> = functions(values).map(|(own, _)| own).collect();
-    let mut left = occurring.filter(|&own| {
-        let other = space.function_at(own).conjugate;
-        other.is_some_and(|other| put.contains(&other))
+    let put: BTreeSet<usize> = functions(values).map(|(own, _)| own).collect();
+    let pairs = values.iter().flat_map(|special| match &special.what {
+        SpecialKind::Symbols(pairs) => pairs.as_slice(),
+        SpecialKind::Size | SpecialKind::Function { .. } => &[],
     });
-    match left.next() {
+    let symbols = pairs.filter_map(|(symbol, _)| space.graph.as_symbol(*symbol));
+    let symbols: BTreeSet<Symbol> = symbols.collect();
+    let mut left = es.iter().flat_map(|&e| space.functions_in(e));
+    match left.find(|&own| space.is_stated_by(own, &put, &symbols)) {
         Some(own) => Verdict::undecided(not_sought(&space.function_at(own).name)),
         None => verdict,
     }

@@ -327,7 +327,8 @@ impl Reader<'_> {
             // Before the name is declared: a parameter is not stated by itself.
             let value = value.and_then(|text| self.scalar(scope, &text));
             constants(scope, &key.content, shape);
-            if let (Some(value), Shape::Scalar, true) = (value, shape, self.puts_in_values) {
+            let is_put_in = self.puts_in_values || self.open_in_own.contains(&key.content);
+            if let (Some(value), Shape::Scalar, true) = (value, shape, is_put_in) {
                 place_holders(scope, &key.content, shape, &[value]);
             }
             found.push(Parameter {
@@ -356,9 +357,18 @@ impl Reader<'_> {
             if !self.is_unknown(scope, &key.content, key.place) {
                 continue;
             }
+            let place = kind.as_ref().map_or(key.place, |text| text.place);
             let Some(shape) = kind.and_then(|text| self.shape(&text)) else {
                 continue;
             };
+            if !matches!(shape, Shape::Scalar | Shape::Vector | Shape::Symmetric) {
+                let message = format!(
+                    "`{}` is a function of a scalar, a vector or a symmetric tensor",
+                    key.content
+                );
+                self.push(Diagnostic::error("bad-kind", place, message));
+                continue;
+            }
             let multiplicities = shape.components(d).into_iter().map(|(_, m)| m).collect();
             let name = match others.contains(&key.content) {
                 true => scope.space.unused_function_name(&key.content, &of),
@@ -520,41 +530,54 @@ fn written(raw: &Raw, sizes: &BTreeMap<String, i64>) -> Option<String> {
     is_stated.then(|| format!("{:?} {value:?} {gradient:?} {sizes:?}", text("argument")))
 }
 
-/// The functions of a file that are others than those of the same name that the space has already: they are stated otherwise, or by
-/// one that is, or are the conjugate of one. One that may be any function is the one that the space has.
+/// The functions of a file that are others than those of the same name that the space has already. A function is that of the space where it
+/// is stated as there, by functions that are, or left open, and where its conjugate, if it has one, is the conjugate there.
 fn others(section: &Table, scope: &Scope) -> BTreeSet<String> {
-    let is_stated_otherwise = |(key, raw): &&(Text, Raw)| {
-        let known = scope.space.function_named(&key.content);
-        let own = written(raw, &scope.sizes);
-        known.is_some_and(|at| own.is_some() && scope.space.function_at(at).written != own)
+    let space = &scope.space;
+    let name_of_conjugate = |at: usize| {
+        let other = space.function_at(at).conjugate?;
+        Some(space.function_at(other).name)
     };
-    let stated = section.entries.iter().filter(is_stated_otherwise);
-    let mut found: BTreeSet<String> = stated.map(|(key, _)| key.content.clone()).collect();
-    let uses = |raw: &Raw, found: &BTreeSet<String>| {
-        let texts = ["value", "gradient", "conjugate"]
-            .into_iter()
-            .filter_map(|key| raw.table()?.get(key)?.expression());
-        let is_sign = |sign: char| !sign.is_alphanumeric();
-        let mut names = texts.flat_map(move |text| text.content.split(is_sign));
-        names.any(|name| found.contains(name))
+    let text = |raw: &Raw, key: &str| {
+        let own = raw.table()?.get(key)?.expression()?;
+        Some(own.content.clone())
     };
-    loop {
-        let next = section.entries.iter().find(|(key, raw)| {
-            let is_conjugate = || {
-                let mut all = section.entries.iter();
-                all.any(|(other, raw)| {
-                    let own = raw
-                        .table()
-                        .and_then(|own| own.get("conjugate")?.expression());
-                    found.contains(&other.content)
-                        && own.is_some_and(|own| own.content == key.content)
-                })
-            };
-            !found.contains(&key.content) && (uses(raw, &found) || is_conjugate())
+    let conjugate_here = |key: &str, raw: &Raw| {
+        let by_other = section.entries.iter().find_map(|(other, raw)| {
+            let own = text(raw, "conjugate")?;
+            (own == key).then(|| other.content.clone())
         });
+        text(raw, "conjugate").or(by_other)
+    };
+    let is_other = |key: &Text, raw: &Raw, found: &BTreeSet<String>| {
+        let Some(known) = space.function_named(&key.content) else {
+            return true;
+        };
+        let own = written(raw, &scope.sizes);
+        let is_stated_otherwise = own.is_some() && space.function_at(known).written != own;
+        let conjugate = conjugate_here(&key.content, raw);
+        let has_other_conjugate = conjugate.as_ref().is_some_and(|conjugate| {
+            found.contains(conjugate) || name_of_conjugate(known).as_ref() != Some(conjugate)
+        });
+        let texts = [text(raw, "value"), text(raw, "gradient")];
+        let is_by_other = texts.iter().flatten().any(|text| {
+            let mut names = text.split(|sign: char| !sign.is_alphanumeric());
+            names.any(|name| found.contains(name))
+        });
+        is_stated_otherwise || has_other_conjugate || is_by_other
+    };
+    let mut found = BTreeSet::new();
+    loop {
+        let mut all = section.entries.iter();
+        let next =
+            all.find(|(key, raw)| !found.contains(&key.content) && is_other(key, raw, &found));
         match next {
             Some((key, _)) => found.insert(key.content.clone()),
-            None => return found,
+            // What the space does not have gets its own name.
+            None => {
+                found.retain(|name| space.function_named(name).is_some());
+                return found;
+            }
         };
     }
 }

@@ -80,6 +80,7 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         overrides: tables.overrides,
         used: Vec::new(),
         puts_in_values: false,
+        open_in_own: BTreeSet::new(),
     };
     let place = Place {
         source: tables.source,
@@ -125,6 +126,8 @@ struct Reader<'f> {
     used: Vec<String>,
     /// Whether scalar parameters are their values, where these are stated.
     puts_in_values: bool,
+    /// Parameters without a value in the file that names the one that is read: there they are the values stated there.
+    open_in_own: BTreeSet<String>,
 }
 
 impl Reader<'_> {
@@ -307,7 +310,7 @@ impl Reader<'_> {
     /// Whether no part of expressions is a number that does not exist, such as `log(0)` or `sqrt(-1)`; else it is said.
     fn is_real(&mut self, scope: &Scope, es: &[Expr], text: &Text) -> bool {
         let g = &scope.space.graph;
-        let is_number = |e: &Expr| scope.space.symbols_in(&[*e]).is_empty();
+        let is_number = |e: &Expr| g.symbols_in(&[*e]).is_empty();
         let mut numbers = g.reachable(es).into_iter().filter(is_number);
         let own = numbers.find(|&e| crate::signs::enclosure(&scope.space, e).is_none());
         if let Some(own) = own {

@@ -11,6 +11,7 @@ use chetaev_model::raw::{Raw, Table};
 use chetaev_model::{joined, tables, Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::Span;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 impl Reader<'_> {
     pub(super) fn relations(&mut self, table: &Table, functional: &Functional) -> Vec<Relation> {
@@ -27,6 +28,15 @@ impl Reader<'_> {
             }
         }
         found
+    }
+
+    /// The functional itself on symbols that it shares with nothing but one other; what is to be said of its file has been said.
+    fn beside(&mut self, table: &Table, functional: &Functional) -> Option<Functional> {
+        let told = self.problems.len();
+        let space = Rc::new(functional.space.beside());
+        let own = self.functional(table, Place::default(), Some(&space));
+        self.problems.truncate(told);
+        own
     }
 
     fn other(&mut self, named: &Text, functional: &Functional) -> Option<Functional> {
@@ -54,7 +64,44 @@ impl Reader<'_> {
             span: Span::new(0, 1),
         };
         let table = written_out(read.table?);
-        self.functional(&table, place, Some(&functional.space))
+        let open = functional.parameters.iter().filter(|p| p.value.is_none());
+        self.open_in_own = open.map(|p| p.name.clone()).collect();
+        let other = self.functional(&table, place, Some(&functional.space));
+        self.open_in_own.clear();
+        let other = other?;
+        self.are_of_one_kind(named, functional, &other)
+            .then_some(other)
+    }
+
+    /// Whether names that two files share mean things of one kind; else it is said.
+    fn are_of_one_kind(&mut self, named: &Text, own: &Functional, other: &Functional) -> bool {
+        let kind = |functional: &Functional, name: &str| {
+            let fields = functional.fields.iter().chain(&functional.data);
+            let field = fields
+                .into_iter()
+                .find(|field| field.name == name)
+                .map(|field| (false, field.shape));
+            let mut parameters = functional.parameters.iter();
+            let parameter = parameters.find(|p| p.name == name);
+            field.or(parameter.map(|p| (true, p.shape)))
+        };
+        let names = other.fields.iter().chain(&other.data).map(|f| &f.name);
+        let names = names.chain(other.parameters.iter().map(|p| &p.name));
+        // Components of parameters have names of their own in each shape.
+        let is_otherwise = |name: &&String| match (kind(own, name), kind(other, name)) {
+            (Some((true, _)), Some((true, _))) => false,
+            (Some(here), there) => Some(here) != there,
+            (None, _) => false,
+        };
+        let Some(name) = names.into_iter().find(is_otherwise) else {
+            return true;
+        };
+        let message = format!(
+            "`{name}` is of another kind in `{}`: what two files call by one name is one thing",
+            named.content
+        );
+        self.push(Diagnostic::error("other-kind", named.place, message));
+        false
     }
 
     pub(super) fn required(&mut self, table: &Table, key: &str, what: &str) -> Option<Text> {
@@ -74,7 +121,9 @@ impl Reader<'_> {
         let section = self.section(table, "duality")?;
         self.known_keys(section, &["with", "flux"], "[duality]");
         let with = self.required(section, "with", "[duality]")?;
-        let other = self.other(&with, functional)?;
+        let own = self.beside(table, functional)?;
+        let other = self.other(&with, &own)?;
+        let functional = &own;
         let flux = self.optional(section, "flux").and_then(|text| {
             let node = self.node(&functional.scope, &text, None)?;
             let letters = free_letters(&node);
@@ -87,7 +136,8 @@ impl Reader<'_> {
             self.lives_there(&living, &components, None, &text);
             Some((text.content, components))
         });
-        Some(Relation::Duality { other, flux })
+        let own = Box::new(own);
+        Some(Relation::Duality { own, other, flux })
     }
 
     fn descent(&mut self, table: &Table, functional: &Functional) -> Option<Relation> {
@@ -98,7 +148,8 @@ impl Reader<'_> {
             "[descent]",
         );
         let from = self.required(section, "from", "[descent]")?;
-        let other = self.other(&from, functional)?;
+        let own = self.beside(table, functional)?;
+        let other = self.other(&from, &own)?;
         let imposed = match section.get("imposing") {
             Some(raw) => self.texts(raw, "imposing"),
             None => Vec::new(),
@@ -112,6 +163,7 @@ impl Reader<'_> {
         let imposed = imposed.into_iter().map(|text| text.content).collect();
         let release = self.release(section, &other);
         Some(Relation::Descent {
+            own: Box::new(own),
             other,
             imposed,
             release,
@@ -151,7 +203,6 @@ impl Reader<'_> {
     ) -> Option<Relation> {
         self.known_keys(table, &["becomes", "at"], "a degeneration");
         let becomes = self.required(table, "becomes", "a degeneration")?;
-        let other = self.other(&becomes, functional)?;
         let at = table.get("at").and_then(Raw::table);
         let entries = at.map_or(&[][..], |own| &own.entries);
         let is_size = |(name, _): &&(Text, Raw)| functional.scope.sizes.contains_key(&name.content);
@@ -166,12 +217,12 @@ impl Reader<'_> {
             });
             special.push((name.clone(), text));
         }
-        let own = if special.is_empty() {
-            None
-        } else {
-            Some(Box::new(self.with_sizes(special, (model, functional))?))
+        let own = match special.is_empty() {
+            true => self.beside(model, functional)?,
+            false => self.with_sizes(special, (model, functional))?,
         };
-        let of = own.as_deref().unwrap_or(functional);
+        let other = self.other(&becomes, &own)?;
+        let of = &own;
         for (name, raw) in rest {
             // On the right the names mean what they mean for the other functional.
             let mut scope = of.scope.clone();
@@ -180,7 +231,7 @@ impl Reader<'_> {
         }
         Some(Relation::Degeneration {
             name: key.content.clone(),
-            own,
+            own: Box::new(own),
             other,
             values,
         })
@@ -198,7 +249,8 @@ impl Reader<'_> {
         self.overrides.retain(|own| !is_asked(own));
         self.overrides.extend(special.iter().cloned());
         let place = special.first().map_or(Place::default(), |own| own.0.place);
-        let found = self.functional(model, place, Some(&functional.space));
+        let space = Rc::new(functional.space.beside());
+        let found = self.functional(model, place, Some(&space));
         self.overrides = before;
         found
     }

@@ -363,12 +363,42 @@ impl Space {
     pub(crate) fn unsettled(&self, e: Expr) -> Option<String> {
         let is_half_known = |own: usize| {
             let other = self.function_at(own).conjugate;
-            let by_gradient = !self.bodies.borrow().contains_key(&own) && self.is_known(own);
+            // What is left of a function with a gradient are its values, which this gives up to a constant.
+            let is_stated = self.gradients.borrow().contains_key(&own);
+            let by_gradient = is_stated && !self.bodies.borrow().contains_key(&own);
             by_gradient || other.is_some_and(|other| self.is_known_alone(other))
         };
         let mut applied = self.functions_in(e).into_iter();
         let own = applied.find(|&own| is_half_known(own))?;
         Some(self.function_at(own).name)
+    }
+
+    /// Whether what is stated of a function, or of those by which it is stated, or of their conjugates, contains one of these functions or symbols.
+    pub(crate) fn is_stated_by(
+        &self,
+        function: usize,
+        functions: &BTreeSet<usize>,
+        symbols: &BTreeSet<Symbol>,
+    ) -> bool {
+        let (mut met, mut open) = (BTreeSet::new(), vec![function]);
+        while let Some(own) = open.pop() {
+            if !met.insert(own) {
+                continue;
+            }
+            if functions.contains(&own) {
+                return true;
+            }
+            let rules = [&self.bodies, &self.gradients].map(|all| all.borrow().get(&own).cloned());
+            let values = rules.into_iter().flatten().flat_map(|rule| rule.values);
+            for e in values {
+                if !self.symbols_in(&[e]).is_disjoint(symbols) {
+                    return true;
+                }
+                open.extend(self.functions_in(e));
+            }
+            open.extend(self.function_at(own).conjugate);
+        }
+        false
     }
 
     /// Whether a function is stated by formulas, if through other functions.

@@ -19,6 +19,7 @@ use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use constitution::{Application, Rule};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// A derivative: the independent variables by which is differentiated, ascending, each as often as it is.
 pub type Multi = Vec<usize>;
@@ -62,8 +63,8 @@ pub struct Jet {
 
 /// All symbols of a functional with their calculus.
 pub struct Space {
-    /// The expressions.
-    pub graph: Graph,
+    /// The expressions, which spaces beside each other share.
+    pub graph: Rc<Graph>,
     /// Independent variables, those of space first.
     pub coordinates: Vec<Coordinate>,
     components: RefCell<Vec<Component>>,
@@ -101,7 +102,17 @@ impl std::fmt::Debug for Space {
 impl Space {
     /// A space with these independent variables: name, what stands behind a comma, and whether it is the time.
     pub fn new(variables: &[(String, String, bool)]) -> Space {
-        let graph = Graph::new();
+        Space::on(Rc::new(Graph::new()), variables)
+    }
+
+    /// Another space with the same expressions and independent variables, in which nothing else is known.
+    pub fn beside(&self) -> Space {
+        let variables = self.coordinates.iter();
+        let variables = variables.map(|own| (own.name.clone(), own.suffix.clone(), own.is_time));
+        Space::on(Rc::clone(&self.graph), &variables.collect::<Vec<_>>())
+    }
+
+    fn on(graph: Rc<Graph>, variables: &[(String, String, bool)]) -> Space {
         let coordinates = variables
             .iter()
             .map(|(name, suffix, is_time)| Coordinate {

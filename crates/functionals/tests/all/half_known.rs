@@ -176,6 +176,92 @@ fn special_values_reach_conjugates() {
     is(found(pair, both, "s_ij s_ij/4 + u_i u_i"), "proved");
 }
 
+/// Conjugates, assumptions and values that another file states are nothing that is known here.
+#[test]
+fn what_another_file_states_is_not_known_here() {
+    let stated = "[equations]\nm = \"eps_ij,i = 0\"\n";
+    let pair = "A = { of = \"symmetric\", conjugate = \"C\" }\n\
+                C = { of = \"symmetric\", value = \"X_ij X_ij\" }";
+    let yields = |text: String| text.replace("[sizes]", "yields = [\"m\"]\n[sizes]");
+    let own = |functions: &str| {
+        yields(text(
+            "own",
+            "A(eps) + s_ij s_ij",
+            functions,
+            &format!("{stated}{}", becomes("")),
+        ))
+    };
+    let other = text("other", "A(eps) + s_ij s_ij", pair, "");
+    for functions in [ANY, SQUARE] {
+        let study = studied(&own(functions), &other);
+        let relation = said(&study, "functional.degeneration");
+        assert!(relation.starts_with("refuted"), "{functions}: {relation}");
+        let euler = said(&study, "functional.euler");
+        // With s free beside it, s = 0 is an Euler equation that is not stated.
+        assert!(euler.starts_with("refuted"), "{functions}: {euler}");
+    }
+    // Where k may vanish nothing follows for u, whatever the other file assumes.
+    let plain = |name: &str, further: &str| text(name, "k u_i u_i + s_ij s_ij", ANY, further);
+    let zero = "[equations]\nm = \"u_i = 0\"\nn = \"s_ij = 0\"\n";
+    let own = plain("own", &format!("{zero}{}", becomes("")));
+    let own = own.replace("[sizes]", "yields = [\"m\", \"n\"]\n[sizes]");
+    let data = "[data]\nk = \"scalar\"\n";
+    let own = own.replace("[parameters]\nk = {}\n", data);
+    let other = plain("other", "").replace("[parameters]\nk = {}\n", data);
+    let assumed = other.replace("[sizes]", "assumptions = [\"k > 0\"]\n[sizes]");
+    let euler = said(&studied(&own, &assumed), "functional.euler");
+    assert!(euler.starts_with("refuted"), "{euler}");
+    // A value that the other file states for a parameter is one of it.
+    let valued = plain("other", "").replace("k = {}", "k = \"2\"");
+    let found = |at: &str| {
+        let own = plain("own", &becomes(at));
+        said(&studied(&own, &valued), "functional.degeneration")
+    };
+    assert!(found("").starts_with("refuted"), "{}", found(""));
+    assert!(
+        found("k = \"2\"").starts_with("proved"),
+        "{}",
+        found("k = \"2\"")
+    );
+}
+
+/// Functionals over different bodies are not compared, and names of other kinds are no common names.
+#[test]
+fn bodies_and_kinds_are_compared() {
+    let line = |name: &str, l: &str, further: &str| {
+        format!(
+            r#"kind = "functional"
+name = "{name}"
+density = "u,x^2"
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, "l"] }}
+[fields]
+u = "scalar"
+[parameters]
+l = "{l}"
+[boundary]
+"x = 0" = {{ fixed = ["u"] }}
+"x = l" = {{ fixed = ["u"] }}
+{further}"#
+        )
+    };
+    let found = |there: &str| {
+        let own = line("own", "1", "[degenerations.it]\nbecomes = \"other.toml\"\n");
+        said(
+            &studied(&own, &line("other", there, "")),
+            "functional.degeneration",
+        )
+    };
+    assert!(found("1").starts_with("proved"), "{}", found("1"));
+    assert!(found("2").starts_with("undecided"), "{}", found("2"));
+    let own = text("own", "s_ij s_ij", ANY, &becomes(""));
+    let matrix = own.replace("s = \"symmetric\"", "s = \"matrix\"");
+    let loaded = load("own.toml", &own, &Other(matrix), &[]);
+    let told = loaded.diagnostics.render(Style::Plain);
+    assert!(told.contains("`s` is of another kind"), "{told}");
+}
+
 /// The values of a function with a gradient alone are not free.
 #[test]
 fn a_gradient_alone_makes_no_counterexample() {

@@ -133,11 +133,17 @@ fn the_polynomial_of_the_bicycle_knows_no_order_and_no_choice() {
     let text = std::fs::read_to_string(path).unwrap();
     let lines = text.split("[coordinates]\n").nth(1).unwrap();
     let lines = lines.split("\n\n").next().unwrap();
-    let turned: Vec<&str> = lines.lines().rev().collect();
-    let turned = Case::gallery_with("whipple-bicycle", lines, &turned.join("\n"));
+    let in_order = |order: &[usize]| {
+        let all: Vec<&str> = lines.lines().collect();
+        let turned: Vec<&str> = order.iter().map(|&at| all[at]).collect();
+        Case::gallery_with("whipple-bicycle", lines, &turned.join("\n"))
+    };
+    let turned = in_order(&[7, 6, 5, 4, 3, 2, 1, 0]);
     assert_eq!(turned.system.coordinates[0].name, "thF");
+    let rotated = in_order(&[3, 4, 5, 6, 7, 0, 1, 2]);
+    let mixed = in_order(&[5, 0, 7, 2, 4, 6, 1, 3]);
     let expected = monic(&as_stated, None);
-    for case in [&as_stated, &turned] {
+    for case in [&as_stated, &turned, &rotated, &mixed] {
         for third in ["x", "thR", "thF"] {
             let found = monic(case, Some(["phi", "delta", third]));
             assert_eq!(found.len(), expected.len(), "{third}");

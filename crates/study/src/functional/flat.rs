@@ -235,6 +235,7 @@ fn relations(text: &mut String, all: &[Relation]) {
                 other: above,
                 imposed,
                 release,
+                ..
             } => {
                 let mut entries = vec![("from".to_owned(), other)];
                 entries.push((
