@@ -3,7 +3,7 @@
 use super::modulo::{equations, other_body, vanishing_difference, STATED};
 use super::special::{instance, put_in, unfit, where_settled};
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::{Functional, Piece, Relation, Role, Special};
+use crate::functional::{Field, Functional, Piece, Relation, Role, Special};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -100,6 +100,9 @@ impl Comparison<'_> {
         let g = &space.graph;
         let mut notes = Vec::new();
         let mut all = Verdict::Proved(Proof::exact("", ""));
+        if let (Some(said), false) = (varied_otherwise(functional, other), self.is_descent) {
+            return Verdict::Refuted(said).into();
+        }
         let mut places = vec![(None, functional.density, other.density)];
         for piece in &other.pieces {
             let Some(own) = functional.piece(&piece.name) else {
@@ -179,6 +182,26 @@ impl Comparison<'_> {
             other => other,
         }
     }
+}
+
+/// What is a field of one functional, and data of the other: then they have other variations.
+fn varied_otherwise(functional: &Functional, other: &Functional) -> Option<Counterexample> {
+    let is_both = |fields: &[Field], data: &[Field]| {
+        let mut own = fields.iter();
+        let found = own.find(|field| data.iter().any(|own| own.name == field.name));
+        found.map(|field| field.name.clone())
+    };
+    let here = is_both(&functional.fields, &other.data);
+    let here = here.map(|name| format!("{name} is varied here, and given there"));
+    let there = is_both(&other.fields, &functional.data);
+    let there = there.map(|name| format!("{name} is given here, and varied there"));
+    let detail = here.or(there)?;
+    Some(Counterexample {
+        point: Vec::new(),
+        residual: ("1".into(), "1".into()),
+        quantity: "what is varied".into(),
+        detail: format!("{detail}, so that the variations are others"),
+    })
 }
 
 /// What is given on a piece by one functional only: then they have other variations there.

@@ -1,7 +1,7 @@
 //! Special values of parameters, fields and constitutive functions, put in for what they replace.
 
 use crate::functional::{Constitutive, Functional, Special, SpecialKind};
-use crate::space::not_sought;
+use crate::space::{not_sought, Space};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::BTreeSet;
 
@@ -85,6 +85,16 @@ pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Ex
     };
     // One may stand in what is put in for another.
     let e = (0..all.len()).fold(space.explicit(e), |e, _| each(e));
+    // What is left of functions that are stated by what is put in is not what they were.
+    let (put, symbols) = reached(space, values);
+    let left = space.functions_in(e).into_iter();
+    let left = left.filter(|&own| space.is_stated_by(own, &put, &symbols));
+    let e = left.fold(e, |e, function| {
+        let special = space.specialised(function);
+        space.replace_function(e, function, &|arguments| {
+            space.apply(special, &[], arguments)
+        })
+    });
     values.iter().fold(e, |e, special| match &special.what {
         SpecialKind::Size | SpecialKind::Function { .. } => e,
         SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
@@ -101,7 +111,12 @@ pub(super) fn instance(
     e: Expr,
 ) -> Expr {
     let space = &*functional.space;
-    let is_any = |own: &&Constitutive| own.value.is_none() && own.gradient.is_none();
+    let is_open = |own: &Constitutive| own.value.is_none() && own.gradient.is_none();
+    let is_any = |own: &&Constitutive| {
+        let conjugate = space.function_at(own.function).conjugate;
+        let mut all = other.functions.iter();
+        is_open(own) && all.all(|f| Some(f.function) != conjugate || is_open(f))
+    };
     let any = other.functions.iter().filter(is_any);
     any.fold(e, |e, own| {
         let function = own.function;
@@ -127,16 +142,21 @@ pub(super) fn where_settled(
         return verdict;
     }
     let space = &*functional.space;
-    let put: BTreeSet<usize> = functions(values).map(|(own, _)| own).collect();
-    let pairs = values.iter().flat_map(|special| match &special.what {
-        SpecialKind::Symbols(pairs) => pairs.as_slice(),
-        SpecialKind::Size | SpecialKind::Function { .. } => &[],
-    });
-    let symbols = pairs.filter_map(|(symbol, _)| space.graph.as_symbol(*symbol));
-    let symbols: BTreeSet<Symbol> = symbols.collect();
+    let (put, symbols) = reached(space, values);
     let mut left = es.iter().flat_map(|&e| space.functions_in(e));
     match left.find(|&own| space.is_stated_by(own, &put, &symbols)) {
         Some(own) => Verdict::undecided(not_sought(&space.function_at(own).name)),
         None => verdict,
     }
+}
+
+/// The functions and the symbols that are put in for.
+fn reached(space: &Space, values: &[Special]) -> (BTreeSet<usize>, BTreeSet<Symbol>) {
+    let put = functions(values).map(|(own, _)| own).collect();
+    let pairs = values.iter().flat_map(|special| match &special.what {
+        SpecialKind::Symbols(pairs) => pairs.as_slice(),
+        SpecialKind::Size | SpecialKind::Function { .. } => &[],
+    });
+    let symbols = pairs.filter_map(|(symbol, _)| space.graph.as_symbol(*symbol));
+    (put, symbols.collect())
 }

@@ -327,8 +327,7 @@ impl Reader<'_> {
             // Before the name is declared: a parameter is not stated by itself.
             let value = value.and_then(|text| self.scalar(scope, &text));
             constants(scope, &key.content, shape);
-            let is_put_in = self.puts_in_values || self.open_in_own.contains(&key.content);
-            if let (Some(value), Shape::Scalar, true) = (value, shape, is_put_in) {
+            if let (Some(value), Shape::Scalar, true) = (value, shape, self.puts_in_values) {
                 place_holders(scope, &key.content, shape, &[value]);
             }
             found.push(Parameter {
@@ -347,7 +346,7 @@ impl Reader<'_> {
             return found;
         };
         let d = scope.space.dimensions();
-        let others = others(section, scope);
+        let others = others(section, table, scope);
         let of = table.get("name").and_then(Raw::expression);
         let of = of
             .map_or("the other", |text| text.content.as_str())
@@ -374,7 +373,7 @@ impl Reader<'_> {
                 true => scope.space.unused_function_name(&key.content, &of),
                 false => key.content.clone(),
             };
-            let written = written(raw, &scope.sizes);
+            let written = written(raw, table, &scope.sizes);
             let is_any = written.is_none();
             let function = scope.space.function(Function {
                 name,
@@ -515,24 +514,63 @@ impl Reader<'_> {
     }
 }
 
-/// How a function is stated, as it is written; nothing where it may be any.
-fn written(raw: &Raw, sizes: &BTreeMap<String, i64>) -> Option<String> {
+/// How a function is stated, as it is written, with what the names in it mean; nothing where it may be any.
+fn written(raw: &Raw, table: &Table, sizes: &BTreeMap<String, i64>) -> Option<String> {
     let own = raw.table()?;
     let text = |key: &str| Some(own.get(key)?.expression()?.content.clone());
     let (value, gradient) = (text("value"), text("gradient"));
-    let is_stated = value.is_some() || gradient.is_some();
-    let occurs = |name: &String| {
-        let all = [&value, &gradient].into_iter().flatten();
-        let mut names = all.flat_map(|text| text.split(|sign: char| !sign.is_alphanumeric()));
-        names.any(|own| own == name)
+    let mut open: Vec<String> = [&value, &gradient].into_iter().flatten().cloned().collect();
+    if open.is_empty() {
+        return None;
+    }
+    let mut meanings: BTreeMap<String, String> = BTreeMap::new();
+    while let Some(text) = open.pop() {
+        for name in text.split(|sign: char| !sign.is_alphanumeric()) {
+            if meanings.contains_key(name) {
+                continue;
+            }
+            let meaning = match sizes.get(name) {
+                Some(size) => size.to_string(),
+                None => match meaning_of(name, table) {
+                    Some(meaning) => meaning,
+                    None => continue,
+                },
+            };
+            open.push(meaning.clone());
+            meanings.insert(name.to_owned(), meaning);
+        }
+    }
+    let argument = text("argument");
+    Some(format!("{argument:?} {value:?} {gradient:?} {meanings:?}"))
+}
+
+/// What a file states of a parameter or a definition, as it is written.
+fn meaning_of(name: &str, table: &Table) -> Option<String> {
+    let is_own = |key: &Text| key.content.split('_').next() == Some(name);
+    let sections = ["parameters", "define"].into_iter();
+    let sections = sections.filter_map(|section| table.get(section)?.table());
+    let mut entries = sections.flat_map(|own| &own.entries);
+    let (key, raw) = entries.find(|(key, _)| is_own(key))?;
+    let all = match raw.table() {
+        Some(own) => own
+            .entries
+            .iter()
+            .map(|(key, raw)| (key.content.as_str(), raw))
+            .collect(),
+        None => vec![("value", raw)],
     };
-    let sizes: Vec<_> = sizes.iter().filter(|(name, _)| occurs(name)).collect();
-    is_stated.then(|| format!("{:?} {value:?} {gradient:?} {sizes:?}", text("argument")))
+    let all = all.into_iter().filter(|(key, _)| *key != "description");
+    let texts = all.filter_map(|(key, raw)| Some(format!("{key} {}", raw.expression()?.content)));
+    Some(format!(
+        "{} {}",
+        key.content,
+        texts.collect::<Vec<_>>().join(" ")
+    ))
 }
 
 /// The functions of a file that are others than those of the same name that the space has already. A function is that of the space where it
 /// is stated as there, by functions that are, or left open, and where its conjugate, if it has one, is the conjugate there.
-fn others(section: &Table, scope: &Scope) -> BTreeSet<String> {
+fn others(section: &Table, table: &Table, scope: &Scope) -> BTreeSet<String> {
     let space = &scope.space;
     let name_of_conjugate = |at: usize| {
         let other = space.function_at(at).conjugate?;
@@ -553,7 +591,7 @@ fn others(section: &Table, scope: &Scope) -> BTreeSet<String> {
         let Some(known) = space.function_named(&key.content) else {
             return true;
         };
-        let own = written(raw, &scope.sizes);
+        let own = written(raw, table, &scope.sizes);
         let is_stated_otherwise = own.is_some() && space.function_at(known).written != own;
         let conjugate = conjugate_here(&key.content, raw);
         let has_other_conjugate = conjugate.as_ref().is_some_and(|conjugate| {

@@ -80,7 +80,6 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         overrides: tables.overrides,
         used: Vec::new(),
         puts_in_values: false,
-        open_in_own: BTreeSet::new(),
     };
     let place = Place {
         source: tables.source,
@@ -126,8 +125,6 @@ struct Reader<'f> {
     used: Vec<String>,
     /// Whether scalar parameters are their values, where these are stated.
     puts_in_values: bool,
-    /// Parameters without a value in the file that names the one that is read: there they are the values stated there.
-    open_in_own: BTreeSet<String>,
 }
 
 impl Reader<'_> {

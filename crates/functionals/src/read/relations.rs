@@ -6,6 +6,7 @@ use super::names::written_out;
 use super::Reader;
 use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
+use crate::space::Space;
 use crate::tensors::Scope;
 use chetaev_model::raw::{Raw, Table};
 use chetaev_model::{joined, tables, Diagnostic, Place, Text};
@@ -30,13 +31,22 @@ impl Reader<'_> {
         found
     }
 
-    /// The functional itself on symbols that it shares with nothing but one other; what is to be said of its file has been said.
+    /// The functional itself on symbols that it shares with nothing but one other, with the values that it states; what is to be said of its
+    /// file has been said.
     fn beside(&mut self, table: &Table, functional: &Functional) -> Option<Functional> {
         let told = self.problems.len();
         let space = Rc::new(functional.space.beside());
-        let own = self.functional(table, Place::default(), Some(&space));
+        let own = self.valued(table, Place::default(), &space);
         self.problems.truncate(told);
         own
+    }
+
+    /// A functional on symbols that are there, with the values that its file states.
+    fn valued(&mut self, table: &Table, place: Place, space: &Rc<Space>) -> Option<Functional> {
+        let before = std::mem::replace(&mut self.puts_in_values, true);
+        let found = self.functional(table, place, Some(space));
+        self.puts_in_values = before;
+        found
     }
 
     fn other(&mut self, named: &Text, functional: &Functional) -> Option<Functional> {
@@ -64,10 +74,10 @@ impl Reader<'_> {
             span: Span::new(0, 1),
         };
         let table = written_out(read.table?);
-        let open = functional.parameters.iter().filter(|p| p.value.is_none());
-        self.open_in_own = open.map(|p| p.name.clone()).collect();
-        let other = self.functional(&table, place, Some(&functional.space));
-        self.open_in_own.clear();
+        let assumed = functional.space.assumptions();
+        let other = self.valued(&table, place, &functional.space);
+        // What is proved of both is proved under what this file assumes.
+        functional.space.assume_only(assumed);
         let other = other?;
         self.are_of_one_kind(named, functional, &other)
             .then_some(other)
@@ -250,7 +260,7 @@ impl Reader<'_> {
         self.overrides.extend(special.iter().cloned());
         let place = special.first().map_or(Place::default(), |own| own.0.place);
         let space = Rc::new(functional.space.beside());
-        let found = self.functional(model, place, Some(&space));
+        let found = self.valued(model, place, &space);
         self.overrides = before;
         found
     }

@@ -366,11 +366,25 @@ impl Space {
             // What is left of a function with a gradient are its values, which this gives up to a constant.
             let is_stated = self.gradients.borrow().contains_key(&own);
             let by_gradient = is_stated && !self.bodies.borrow().contains_key(&own);
-            by_gradient || other.is_some_and(|other| self.is_known_alone(other))
+            let is_special = self.specialised.borrow().contains(&own);
+            is_special || by_gradient || other.is_some_and(|other| self.is_known_alone(other))
         };
         let mut applied = self.functions_in(e).into_iter();
         let own = applied.find(|&own| is_half_known(own))?;
         Some(self.function_at(own).name)
+    }
+
+    /// The function that another one is with special values by which it is stated, of which nothing else is known.
+    pub(crate) fn specialised(&self, function: usize) -> usize {
+        let own = self.function_at(function);
+        let at = self.function(Function {
+            name: format!("{} with the special values", own.name),
+            conjugate: None,
+            written: None,
+            ..own
+        });
+        self.specialised.borrow_mut().insert(at);
+        at
     }
 
     /// Whether what is stated of a function, or of those by which it is stated, or of their conjugates, contains one of these functions or symbols.

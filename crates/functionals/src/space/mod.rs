@@ -74,6 +74,8 @@ pub struct Space {
     jets: RefCell<BTreeMap<Symbol, Jet>>,
     applications: RefCell<BTreeMap<Symbol, Application>>,
     known: RefCell<BTreeMap<Application, Expr>>,
+    /// Functions with special values that reach them through what they are stated by: what they are then is not known.
+    specialised: RefCell<BTreeSet<usize>>,
     /// Applications whose values are being looked for.
     sought: RefCell<BTreeSet<Application>>,
     /// The determinants of linear gradients from which the conjugate was computed, or which have none.
@@ -139,6 +141,7 @@ impl Space {
             jets: RefCell::default(),
             applications: RefCell::default(),
             known: RefCell::default(),
+            specialised: RefCell::default(),
             sought: RefCell::default(),
             determinants: RefCell::default(),
             conjugations: RefCell::default(),

@@ -16,6 +16,12 @@ impl Space {
         }
     }
 
+    /// Assumes these comparisons, and nothing else.
+    pub(crate) fn assume_only(&self, assumed: Assumptions) {
+        *self.assumptions.borrow_mut() = assumed;
+        self.vanishing.borrow_mut().clear();
+    }
+
     /// What is assumed.
     pub fn assumptions(&self) -> Assumptions {
         self.assumptions.borrow().clone()

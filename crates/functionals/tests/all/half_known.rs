@@ -225,6 +225,54 @@ fn what_another_file_states_is_not_known_here() {
     );
 }
 
+/// One text in two files is one function only where the names in it mean the same, and values of parameters that the other file alone
+/// declares hold there.
+#[test]
+fn one_text_is_one_function_where_its_names_mean_the_same() {
+    let pair = "A = { of = \"symmetric\", conjugate = \"B\", value = \"k X_ij X_ij\" }\n\
+                B = { of = \"symmetric\", conjugate = \"A\" }";
+    let quartic = pair.replace("k X_ij X_ij", "k (X_ij X_ij)^2");
+    let with = |text: String, k: &str| text.replace("k = {}", &format!("k = \"{k}\""));
+    let found = |functions: &str, here: &str, there: &str| {
+        let own = text("own", "B(eps) + s_ij s_ij", functions, &becomes(""));
+        let other = text("other", "B(eps) + s_ij s_ij", functions, "");
+        said(
+            &studied(&with(own, here), &with(other, there)),
+            "functional.degeneration",
+        )
+    };
+    assert!(found(pair, "1", "1").starts_with("proved"));
+    assert!(
+        found(pair, "1", "2").starts_with("refuted"),
+        "{}",
+        found(pair, "1", "2")
+    );
+    assert!(found(&quartic, "1", "1").starts_with("proved"));
+    assert!(
+        found(&quartic, "1", "2").starts_with("undecided"),
+        "{}",
+        found(&quartic, "1", "2")
+    );
+    // At k = 2 what is half known is another function.
+    let own = text("own", "B(eps) + s_ij s_ij", &quartic, &becomes("k = \"2\""));
+    let other = text("other", "B(eps) + s_ij s_ij", &quartic, "");
+    let special = said(&studied(&own, &other), "functional.degeneration");
+    assert!(special.starts_with("undecided"), "{special}");
+    // A parameter of the other file alone has its value.
+    let own = text("own", "eps_ij eps_ij", ANY, &becomes("")).replace("k = {}", "");
+    let other = with(
+        text(
+            "other",
+            "A(eps)",
+            "A = { of = \"symmetric\", value = \"k X_ij X_ij/2\" }",
+            "",
+        ),
+        "2",
+    );
+    let alone = said(&studied(&own, &other), "functional.degeneration");
+    assert!(alone.starts_with("proved"), "{alone}");
+}
+
 /// Functionals over different bodies are not compared, and names of other kinds are no common names.
 #[test]
 fn bodies_and_kinds_are_compared() {
