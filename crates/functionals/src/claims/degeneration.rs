@@ -51,7 +51,10 @@ impl Claim for Degeneration {
                     return unfit.into();
                 }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();
-                let how = format!("with {}", told.join(", "));
+                let how = match told.as_slice() {
+                    [] => "without special values".to_owned(),
+                    told => format!("with {}", told.join(", ")),
+                };
                 let comparison = Comparison {
                     functional,
                     other,
