@@ -1,7 +1,7 @@
 //! One statement on a motion, decided at the values of the parameters that the model states, or for all values of the one parameter that occurs
 //! in the motion only.
 
-use crate::admitted::Admitted;
+use crate::admissible_values::AdmissibleValues;
 use crate::bundle::{bundles, Bundle};
 use crate::characteristic::{LARGEST as VARIABLES, LARGEST_IN_NUMBERS};
 use crate::expansion::Expansion;
@@ -448,7 +448,8 @@ impl Pieces {
             .into_iter()
             .filter(|&e| g.as_number(e).is_none() && !g.symbols_in(&[e]).is_empty())
             .collect();
-        let admitted = Admitted::new(about.expansion.system, about.expansion.motion, symbol);
+        let admitted =
+            AdmissibleValues::new(about.expansion.system, about.expansion.motion, symbol);
         let cutting = [further.clone(), admitted.functions()].concat();
         let mut bound = question.bound(g)?;
         if !cutting.is_empty() {
@@ -479,7 +480,7 @@ impl Pieces {
         about: &About<'_>,
         statement: &dyn Statement,
         ranges: &Ranges,
-        (mut cuts, admitted, functions): (Vec<Root>, &Admitted, &[Expr]),
+        (mut cuts, admitted, functions): (Vec<Root>, &AdmissibleValues, &[Expr]),
     ) -> Option<()> {
         let g = about.graph();
         cuts.extend(ranges.boundaries.iter().map(|b| b.root.clone()));

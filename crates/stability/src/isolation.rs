@@ -55,9 +55,10 @@ fn without_power(decimal: &str) -> String {
         return format!("{sign}0.{}{all}", "0".repeat(point.unsigned_abs() as usize));
     }
     let point = point.unsigned_abs() as usize;
-    match all.len() <= point {
-        true => format!("{sign}{all}{}", "0".repeat(point - all.len())),
-        false => format!("{sign}{}.{}", &all[..point], &all[point..]),
+    if all.len() <= point {
+        format!("{sign}{all}{}", "0".repeat(point - all.len()))
+    } else {
+        format!("{sign}{}.{}", &all[..point], &all[point..])
     }
 }
 

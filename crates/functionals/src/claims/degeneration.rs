@@ -1,7 +1,7 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
 use super::modulo::{equations, other_body, vanishing_difference, STATED};
-use super::special::{instance, put_in, unfit, where_settled};
+use super::special_values::{instance, put_in, unfit};
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Field, Functional, Piece, Relation, Role, Special};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
@@ -62,13 +62,7 @@ impl Claim for Degeneration {
                     values,
                     is_descent: false,
                 };
-                let found = comparison.decided(&|e| put_in(functional, values, e));
-                let of_pieces = functional.pieces.iter().chain(&other.pieces);
-                let densities = of_pieces.map(|piece| piece.density);
-                let densities = densities.chain([functional.density, other.density]);
-                let es: Vec<Expr> = densities.map(|e| put_in(functional, values, e)).collect();
-                let verdict = where_settled(functional, values, &es, found.verdict);
-                Finding { verdict, ..found }
+                comparison.decided(&|e| put_in(functional, values, e))
             }
             None => Verdict::undecided("there is no such degeneration").into(),
         }

@@ -1,6 +1,7 @@
 //! `functional.legendre`: stated constitutive functions are Legendre conjugates.
 
 use super::{Claim, Context, Finding};
+use crate::functional::Constitutive;
 use chetaev_symbolic::Verdict;
 
 /// `functional.legendre#B`.
@@ -50,11 +51,9 @@ impl Claim for Legendre {
         };
         let is_stated = |function: usize| {
             let mut all = functional.functions.iter();
-            all.any(|f| f.function == function && f.value.is_some())
-        };
-        let is_half_stated = |function: usize| {
-            let mut all = functional.functions.iter();
-            all.any(|f| f.function == function && f.gradient.is_some())
+            let is_own = |f: &&Constitutive| f.function == function;
+            all.find(is_own)
+                .is_some_and(|f| f.value.is_some() || f.gradient.is_some())
         };
         let name = |function: usize| space.function_at(function).name;
         match space.conjugation(own.function) {
@@ -65,10 +64,8 @@ impl Claim for Legendre {
             _ if space.determinant_of(other).is_some() => {
                 computed(&own.name, &name(other), &own.name)
             }
-            _ if !is_stated(other) && !is_half_stated(other) => assumed(&name(other), &own.name),
-            _ if !is_stated(own.function) && !is_half_stated(own.function) => {
-                assumed(&own.name, &own.name)
-            }
+            _ if !is_stated(other) => assumed(&name(other), &own.name),
+            _ if !is_stated(own.function) => assumed(&own.name, &own.name),
             Some(verdict) => verdict.into(),
             None => Verdict::undecided(
                 "the relation is assumed: one of the functions has a gradient and no value",

@@ -14,7 +14,7 @@ mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
 mod solution;
-mod special;
+mod special_values;
 
 use self::admission::Admission;
 use crate::functional::{Functional, Problem};

@@ -1,7 +1,7 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
 use super::reduction::{reduced, restricted};
-use super::special::{put_in, unfit, where_settled};
+use super::special_values::{put_in, unfit, where_settled};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};

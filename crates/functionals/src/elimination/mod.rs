@@ -406,14 +406,9 @@ impl<'s> Solved<'s> {
         None
     }
 
-    /// Whether an expression is proved to vanish identically.
-    fn vanishes(&self, e: Expr) -> bool {
-        self.space.vanish(&[e])
-    }
-
     /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.
     pub fn follows(&self, es: &[Expr]) -> bool {
-        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.vanishes(own.here(e)));
+        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.space.vanishes(own.here(e)));
         is_so(self) || self.cases().is_some_and(|all| all.iter().all(is_so))
     }
 
@@ -601,7 +596,10 @@ impl<'s> Solved<'s> {
                 let [one, two] = [e, other].map(|e| self.at_point(e, &jets, seed));
                 let is_somewhere = !g.is_zero(two)
                     && matches!(self.space.vanishing(&[two], true), Verdict::Refuted(_));
-                is_somewhere && self.vanishes(g.sub(g.mul(&[e, two]), g.mul(&[one, other])))
+                is_somewhere
+                    && self
+                        .space
+                        .vanishes(g.sub(g.mul(&[e, two]), g.mul(&[one, other])))
             })
         })
     }

@@ -64,7 +64,7 @@ impl Solved<'_> {
                     .iter()
                     .flat_map(|&e| self.parts(self.here(e)));
                 group.equations = parts.map(|e| self.stripped(e)).collect();
-                group.equations.retain(|&e| !self.vanishes(e));
+                group.equations.retain(|&e| !self.space.vanishes(e));
             }
             groups.retain(|group| !group.equations.is_empty());
             self.left = groups;
@@ -199,7 +199,7 @@ impl Solved<'_> {
             for k in 0..self.left[at].equations.len() {
                 let mut e = self.left[at].equations[k];
                 for jet in self.space.jets_in(&[e]) {
-                    if !self.vanishes(self.space.partial(e, &jet)) {
+                    if !self.space.vanishes(self.space.partial(e, &jet)) {
                         continue;
                     }
                     let zero = self.space.graph.zero();
@@ -395,7 +395,7 @@ impl Solved<'_> {
             jets.contains(&jet).then(|| space.graph.zero())
         };
         let mut rests = equations.iter().map(|&e| space.replace(e, &zero));
-        rests.all(|e| self.vanishes(e))
+        rests.all(|e| self.space.vanishes(e))
     }
 
     pub(super) fn pivots_of(&self, matrix: &[Vec<Expr>]) -> Option<Pivots> {
@@ -453,7 +453,7 @@ impl Solved<'_> {
         matrix.iter().zip(rest).all(|(row, &rest)| {
             let mut terms: Vec<Expr> = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x])).collect();
             terms.push(rest);
-            self.vanishes(g.add(&terms))
+            self.space.vanishes(g.add(&terms))
         })
     }
 
@@ -500,7 +500,7 @@ impl Solved<'_> {
                 let divisor = own
                     .divisor
                     .filter(|&e| self.space.graph.as_number(e).is_none());
-                divisor.is_some_and(|e| self.vanishes(self.here(e)))
+                divisor.is_some_and(|e| self.space.vanishes(self.here(e)))
             };
             let Some(at) = self.adopted.iter().position(has_vanished) else {
                 return;

@@ -3,6 +3,7 @@
 mod assumptions;
 mod declare;
 mod family;
+mod functions;
 mod living;
 mod names;
 mod relations;

@@ -227,9 +227,10 @@ impl Reader<'_> {
             });
             special.push((name.clone(), text));
         }
-        let own = match special.is_empty() {
-            true => self.beside(model, functional)?,
-            false => self.with_sizes(special, (model, functional))?,
+        let own = if special.is_empty() {
+            self.beside(model, functional)?
+        } else {
+            self.with_sizes(special, (model, functional))?
         };
         let other = self.other(&becomes, &own)?;
         let of = &own;

@@ -335,9 +335,10 @@ impl Reader<'_> {
             let is_definition = scope.definitions.contains_key(name);
             let tensor = scope.tensors.get(name).filter(|_| !is_definition);
             let Some(tensor) = tensor else {
-                let message = match is_definition {
-                    true => format!("`{name}` is a definition, not a field: `fixed` names the fields that are given"),
-                    false => format!("`{name}` is not a field"),
+                let message = if is_definition {
+                    format!("`{name}` is a definition, not a field: `fixed` names the fields that are given")
+                } else {
+                    format!("`{name}` is not a field")
                 };
                 let diagnostic = Diagnostic::error("unknown-name", text.place, message);
                 let of_field = name.split_once(',').map(|(field, _)| field);

@@ -66,7 +66,7 @@ impl Space {
 
     /// Whether an expression is proved to vanish identically. The same is asked on every piece of the boundary and for every solution that
     /// is tried, so that it is kept until more is assumed.
-    fn vanishes(&self, e: Expr) -> bool {
+    pub(crate) fn vanishes(&self, e: Expr) -> bool {
         if self.graph.is_zero(e) {
             return true;
         }

@@ -9,9 +9,10 @@ struct Other(String);
 
 impl Files for Other {
     fn read(&self, path: &str) -> Result<String, String> {
-        match path.ends_with("other.toml") {
-            true => Ok(self.0.clone()),
-            false => Err(format!("there is no file {path}")),
+        if path.ends_with("other.toml") {
+            Ok(self.0.clone())
+        } else {
+            Err(format!("there is no file {path}"))
         }
     }
 }

@@ -1,12 +1,11 @@
 //! Values of a parameter at which stability changes.
 
-use crate::admitted::Admitted;
+use crate::admissible_values::AdmissibleValues;
 use crate::decision::{about, closed_form, place_exactly, About};
 use crate::evidence::motions;
 use crate::hurwitz::{Boundary, Crossing, Ranges, Region};
 use crate::isolation::Root;
-use crate::question::{bound_of, parameter_of_motion, Place};
-use crate::real_roots::real_roots;
+use crate::question::{parameter_of_motion, Place};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -74,12 +73,8 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     let about = about(cx, Some(name))?.ok()?;
     let (g, question) = (about.graph(), &about.question);
     let symbol = question.over?;
-    let admitted = Admitted::new(cx.system, about.expansion.motion, symbol);
-    let mut ends = Vec::new();
-    for e in admitted.functions() {
-        let bound = bound_of(g, &[e], symbol)?;
-        ends.extend(real_roots(g, e, symbol, &-bound.clone(), &bound)?);
-    }
+    let admitted = AdmissibleValues::new(cx.system, about.expansion.motion, symbol);
+    let ends = admitted.ends(g)?;
     let bound = question.bound(g)?;
     let over = Over {
         cx,
@@ -130,7 +125,7 @@ struct Over<'a, 'c> {
     /// At whose zeros the boundaries lie.
     functions: Vec<Expr>,
     /// Which values of the parameter are.
-    admitted: Admitted,
+    admitted: AdmissibleValues,
     /// Where something that is assumed begins or ceases to hold.
     ends: Vec<Root>,
 }

@@ -248,6 +248,38 @@ fn figures(name: &str, own: &Stability) -> Vec<Figure> {
     let Some(range) = own.range.as_ref() else {
         return Vec::new();
     };
+    let (abscissae, curves) = curves(own, range);
+    let of = |figure: Figure| Figure {
+        horizontal: range.name.clone(),
+        abscissae: abscissae.clone(),
+        claim: Some(format!("stability.spectral#{name}")),
+        ..figure
+    };
+    let parts = of(Figure {
+        title: format!("Eigenvalues of the motion {name}"),
+        explanation: vec![format!(
+            "Real and imaginary parts over {}: the motion is unstable where a real part is positive.",
+            range.name
+        )],
+        series: series(&curves, &|part, i| (format!("{part} λ {i}"), format!("{part} λ_{{{i}}}"))),
+        ..Figure::default()
+    });
+    let locus = of(Figure {
+        title: format!("Root locus of the motion {name}"),
+        explanation: vec![format!(
+            "The paths of the eigenvalues in the complex plane from {} to {} (a dot marks where each begins): the motion is unstable where one lies right of the imaginary axis.",
+            at_end(range, range.low.to_f64().value()),
+            at_end(range, range.high.to_f64().value())
+        )],
+        plane: Some(("Re λ".into(), "Im λ".into())),
+        series: series(&curves, &|_, i| (format!("λ {i}"), format!("λ_{{{i}}}"))),
+        ..Figure::default()
+    });
+    vec![parts, locus]
+}
+
+/// Values of the parameter, and over them the real and imaginary part of each eigenvalue.
+fn curves(own: &Stability, range: &Range) -> (Vec<f64>, Vec<Vec<(f64, f64)>>) {
     let (low, high) = (range.low.to_f64().value(), range.high.to_f64().value());
     let mut abscissae = Vec::new();
     let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
@@ -263,53 +295,31 @@ fn figures(name: &str, own: &Stability) -> Vec<Figure> {
         }
         abscissae.push(at);
     }
-    let parts = |label: &dyn Fn(&str, usize) -> (String, String)| -> Vec<Series> {
-        let of = |(place, curve): (usize, &Vec<(f64, f64)>)| {
-            let part = |what: &str, values: Vec<f64>| {
-                let (name, label) = label(what, place + 1);
-                Series {
-                    name,
-                    label: Some(label),
-                    group: SeriesGroup::Other,
-                    values,
-                    ..Series::default()
-                }
-            };
-            [
-                part("Re", curve.iter().map(|l| l.0).collect()),
-                part("Im", curve.iter().map(|l| l.1).collect()),
-            ]
+    (abscissae, curves)
+}
+
+/// The two parts of each curve, with the name and the label of a part (`Re` or `Im`) of the eigenvalue of a number.
+fn series(
+    curves: &[Vec<(f64, f64)>],
+    named: &dyn Fn(&str, usize) -> (String, String),
+) -> Vec<Series> {
+    let of = |(place, curve): (usize, &Vec<(f64, f64)>)| {
+        let part = |what: &str, values: Vec<f64>| {
+            let (name, label) = named(what, place + 1);
+            Series {
+                name,
+                label: Some(label),
+                group: SeriesGroup::Other,
+                values,
+                ..Series::default()
+            }
         };
-        curves.iter().enumerate().flat_map(of).collect()
+        [
+            part("Re", curve.iter().map(|l| l.0).collect()),
+            part("Im", curve.iter().map(|l| l.1).collect()),
+        ]
     };
-    let claim = Some(format!("stability.spectral#{name}"));
-    let over = Figure {
-        title: format!("Eigenvalues of the motion {name}"),
-        explanation: vec![format!(
-            "Real and imaginary parts over {}: the motion is unstable where a real part is positive.",
-            range.name
-        )],
-        horizontal: range.name.clone(),
-        abscissae: abscissae.clone(),
-        series: parts(&|what, i| (format!("{what} λ {i}"), format!("{what} λ_{{{i}}}"))),
-        claim: claim.clone(),
-        ..Figure::default()
-    };
-    let locus = Figure {
-        title: format!("Root locus of the motion {name}"),
-        explanation: vec![format!(
-            "The paths of the eigenvalues in the complex plane from {} to {} (a dot marks where each begins): the motion is unstable where one lies right of the imaginary axis.",
-            at_end(range, low),
-            at_end(range, high)
-        )],
-        plane: Some(("Re λ".into(), "Im λ".into())),
-        series: parts(&|_, i| (format!("λ {i}"), format!("λ_{{{i}}}"))),
-        abscissae,
-        horizontal: range.name.clone(),
-        claim,
-        ..Figure::default()
-    };
-    vec![over, locus]
+    curves.iter().enumerate().flat_map(of).collect()
 }
 
 /// An end of a range, as it is printed.

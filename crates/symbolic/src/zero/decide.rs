@@ -201,9 +201,10 @@ impl Case<'_> {
         let program = self.program();
         let plan = plan_of(&self.test.options, 1, self.residuals.len());
         let outcome = modular::decide(&program, &plan);
-        let exact = match self.test.options.exact && !is_apart(&program, &outcome) {
-            true => exact::decide(self.graph, self.residuals, self.assumptions),
-            false => Exact::Open,
+        let exact = if self.test.options.exact && !is_apart(&program, &outcome) {
+            exact::decide(self.graph, self.residuals, self.assumptions)
+        } else {
+            Exact::Open
         };
         match exact {
             Exact::Zero => self.confirm(&program, outcome),

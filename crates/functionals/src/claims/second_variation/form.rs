@@ -1,6 +1,6 @@
 //! The second variation as a quadratic form on an interval.
 
-use super::super::special::{put_in, unfit};
+use super::super::special_values::{put_in, unfit};
 use crate::functional::{Functional, Interval, Role, Side, Solution, Special, SpecialKind};
 use crate::read::on_side;
 use crate::space::Jet;

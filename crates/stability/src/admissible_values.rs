@@ -1,8 +1,8 @@
 //! Which values of a parameter the model admits: what it assumes, along the motion and with the values of the other parameters.
 
 use crate::isolation::Root;
-use crate::question::values_but;
-use crate::real_roots::{sign_at, sign_over};
+use crate::question::{bound_of, values_but};
+use crate::real_roots::{real_roots, sign_at, sign_over};
 use crate::steady::closed;
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{SteadyMotion, System};
@@ -12,15 +12,15 @@ use std::cmp::Ordering;
 
 /// What is assumed of one parameter.
 #[derive(Clone, Debug)]
-pub(crate) struct Admitted {
+pub(crate) struct AdmissibleValues {
     symbol: Symbol,
     /// Functions of the parameter with how they are to compare with zero.
     conditions: Vec<(Expr, Relation)>,
 }
 
-impl Admitted {
+impl AdmissibleValues {
     /// The assumptions in which nothing but this parameter is left.
-    pub(crate) fn new(system: &System, motion: &SteadyMotion, symbol: Symbol) -> Admitted {
+    pub(crate) fn new(system: &System, motion: &SteadyMotion, symbol: Symbol) -> AdmissibleValues {
         let g = &system.graph;
         let values = values_but(system, Some(symbol));
         let coordinates = system.coordinates.iter();
@@ -36,12 +36,22 @@ impl Admitted {
         let conditions = own
             .filter(|(e, _)| g.symbols_in(&[*e]).into_iter().eq([symbol]))
             .collect();
-        Admitted { symbol, conditions }
+        AdmissibleValues { symbol, conditions }
     }
 
     /// The functions at whose zeros something that is assumed begins or ceases to hold.
     pub(crate) fn functions(&self) -> Vec<Expr> {
         self.conditions.iter().map(|(e, _)| *e).collect()
+    }
+
+    /// Where something that is assumed begins or ceases to hold; `None` where that was not decided.
+    pub(crate) fn ends(&self, g: &Graph) -> Option<Vec<Root>> {
+        let of = |e: Expr| {
+            let bound = bound_of(g, &[e], self.symbol)?;
+            real_roots(g, e, self.symbol, &-bound.clone(), &bound)
+        };
+        let all: Option<Vec<Vec<Root>>> = self.functions().into_iter().map(of).collect();
+        Some(all?.concat())
     }
 
     /// Whether a value satisfies everything; `None` where that was not decided.
@@ -50,7 +60,7 @@ impl Admitted {
     }
 
     /// Whether the value that an interval encloses satisfies everything; `None` where that was not decided. It is a zero of one of the
-    /// [`functions`](Admitted::functions) or of these others.
+    /// [`functions`](AdmissibleValues::functions) or of these others.
     pub(crate) fn contains_root(&self, g: &Graph, root: &Root, others: &[Expr]) -> Option<bool> {
         if root.low == root.high {
             return self.contains(g, &root.low);
@@ -73,12 +83,10 @@ impl Admitted {
             })
         };
         let found: Vec<Option<bool>> = self.conditions.iter().map(holds).collect();
-        match found.contains(&Some(false)) {
-            true => Some(false),
-            false => found
-                .into_iter()
-                .collect::<Option<Vec<bool>>>()
-                .map(|_| true),
+        if found.contains(&Some(false)) {
+            return Some(false);
         }
+        let all: Option<Vec<bool>> = found.into_iter().collect();
+        all.map(|_| true)
     }
 }
