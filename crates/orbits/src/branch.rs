@@ -7,7 +7,7 @@
 use crate::error::OrbitError;
 use crate::hopf::WithoutLyapunov;
 use crate::multipliers::Spectrum;
-use crate::subspace::{damped, kernel, least_squares, nullity};
+use crate::subspace::{damped, decomposed, kernel, least_squares, nullity};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// `F` with its derivatives at (x, p).
@@ -38,6 +38,11 @@ pub trait Equations {
     /// [`OrbitError`].
     fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError>;
 
+    /// How far right of the axis an eigenvalue is, in parts of the largest; `None` where it is a multiplier.
+    fn beyond(&self, _value: Complex<f64>, _size: f64) -> Option<f64> {
+        None
+    }
+
     /// What changes its sign where the kind of motion may change; not a number where it vanishes identically.
     fn tests(&self, values: &[Complex<f64>]) -> Vec<f64>;
 
@@ -53,6 +58,11 @@ pub trait Equations {
         turns: bool,
     ) -> Result<Option<Kind>, OrbitError>;
 
+    /// The dimension of the family of solutions at the same p, from ∂F/∂x at one of them.
+    fn family(&self, by_unknowns: &DMatrix<f64>, scale: &[f64]) -> usize {
+        nullity(&scaled(by_unknowns, scale), FAMILY)
+    }
+
     /// Told after each point that was accepted.
     fn accepted(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
         let _ = (x, p);
@@ -67,6 +77,10 @@ pub enum Kind {
     Fold,
     /// An eigenvalue passes through zero, or a multiplier through 1, and the branch goes on: another one may cross.
     BranchPoint,
+    /// The branch turns back where another one crosses it, as at a pitchfork.
+    Pitchfork,
+    /// An eigenvalue goes to infinity, and comes back from its other side.
+    Infinity,
     /// A pair of eigenvalues passes the imaginary axis.
     Hopf {
         /// ω.
@@ -128,7 +142,7 @@ pub enum End {
 }
 
 /// Singular values below this part of the largest belong to a family.
-const FAMILY: f64 = 1e-7;
+pub(crate) const FAMILY: f64 = 1e-7;
 /// The same for a solution that is exact to rounding.
 const ROUNDING: f64 = 1e-13;
 const STEPS: usize = 20;
@@ -182,7 +196,7 @@ pub fn solution(
         let change = damped(&matrix, &-own.residual, damping).ok_or(OrbitError::NoEigenvalues)?;
         let size = change.norm();
         if is_done(size, last, x.norm()) {
-            let family = nullity(&matrix, FAMILY);
+            let family = equations.family(&own.by_unknowns, &scale);
             equations.accepted(&unscaled, p)?;
             let spectrum = equations.spectrum(&unscaled, p, family)?;
             let point = Point {
@@ -500,18 +514,42 @@ impl Walk<'_> {
     /// What happens between two points.
     fn between(&mut self, a: &Stand, b: &Stand, happened: &mut Vec<(f64, Special)>) {
         let turns = self.value(Sign::Growth, a) * self.value(Sign::Growth, b) < 0.0;
+        let known = happened.len();
         let mut is_located = false;
         for test in 0..self.equations.tests(&a.point.spectrum.values).len() {
-            if self.value(Sign::Test(test), a) * self.value(Sign::Test(test), b) < 0.0 {
-                let found = self.locate(Sign::Test(test), a, b);
+            let sign = Sign::Test(test);
+            let [left, right] = [a, b].map(|own| self.value(sign, own));
+            if left * right < 0.0 {
+                let found = self.locate(sign, a, b);
                 is_located |= test == 0 && found.is_some();
-                happened.extend(found.and_then(|own| self.special(test, own, turns)));
+                let Some(own) = found else { continue };
+                // What jumps from one sign to the other has a pole between.
+                if self.value(sign, &own).abs() > JUMP * left.abs().min(right.abs()) {
+                    let kind = Kind::Infinity;
+                    let point = own.point;
+                    happened.push((own.s, Special { kind, point }));
+                    continue;
+                }
+                let is_branching = turns && self.is_branching(a, &own);
+                happened.extend(self.special(test, own, turns).map(|(s, mut own)| {
+                    if is_branching && own.kind == Kind::Fold {
+                        own.kind = Kind::Pitchfork;
+                    }
+                    (s, own)
+                }));
             }
+        }
+        if happened.len() == known && !turns {
+            self.several(a, b, happened);
         }
         // Where two branches meet, one may turn back without a change of sign of its eigenvalue, as at a pitchfork.
         if turns && !is_located {
             if let Some(own) = self.locate(Sign::Growth, a, b) {
-                let kind = Kind::Fold;
+                let kind = if self.is_branching(a, &own) {
+                    Kind::Pitchfork
+                } else {
+                    Kind::Fold
+                };
                 happened.push((
                     own.s,
                     Special {
@@ -521,6 +559,78 @@ impl Walk<'_> {
                 ));
             }
         }
+    }
+
+    /// Whether another curve crosses at a point: two directions solve the linear equations there, and one beside it.
+    fn is_branching(&mut self, beside: &Stand, own: &Stand) -> bool {
+        let m = self.scale.len();
+        let mut second = |y: &DVector<f64>| {
+            let (_, matrix) = self.system(y).ok()?;
+            let values = decomposed(&matrix)?.s;
+            values.get(m.checked_sub(1)?).copied()
+        };
+        let pair = second(&own.y).zip(second(&beside.y));
+        pair.is_some_and(|(there, beside)| there < BRANCHING * beside)
+    }
+
+    /// Several eigenvalues that pass the axis at once, so that no product of them changes its sign.
+    fn several(&mut self, a: &Stand, b: &Stand, happened: &mut Vec<(f64, Special)>) {
+        let ends = self.count(a, NEAR_AXIS).zip(self.count(b, NEAR_AXIS));
+        let Some((from, to)) = ends else {
+            return;
+        };
+        if from == to {
+            return;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut found = None;
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            let Some(own) = self.on_chord(a, b, middle) else {
+                return;
+            };
+            let count = self.count(&own, ON_AXIS);
+            found = Some(own);
+            match count {
+                Some(count) if count == from => low = middle,
+                Some(_) => high = middle,
+                None => break,
+            }
+        }
+        let Some(own) = found else { return };
+        let size = largest(&own.point.spectrum.values);
+        let is_on_axis = |l: &&Complex<f64>| l.im >= 0.0 && l.re.abs() < NEAR_AXIS * size;
+        let values = own.point.spectrum.values.iter();
+        let on_axis: Vec<Complex<f64>> = values.filter(is_on_axis).copied().collect();
+        let pairs = on_axis.iter().filter(|l| l.im > NEAR_AXIS * size);
+        let mut kinds: Vec<Kind> = pairs
+            .map(|l| Kind::Hopf {
+                frequency: l.im,
+                first_lyapunov: Err(WithoutLyapunov::Several),
+            })
+            .collect();
+        if on_axis.len() > kinds.len() {
+            kinds.push(Kind::BranchPoint);
+        }
+        for kind in kinds {
+            let point = own.point.clone();
+            happened.push((own.s, Special { kind, point }));
+        }
+    }
+
+    /// How many eigenvalues lie right of the axis; `None` where one lies on it, to a part of the largest.
+    fn count(&self, at: &Stand, part: f64) -> Option<usize> {
+        let values = &at.point.spectrum.values;
+        let size = largest(values);
+        let mut count = 0;
+        for value in values {
+            let beyond = self.equations.beyond(*value, size)?;
+            if beyond.abs() < part {
+                return None;
+            }
+            count += usize::from(beyond > 0.0);
+        }
+        Some(count)
     }
 
     fn special(&mut self, test: usize, own: Stand, turns: bool) -> Option<(f64, Special)> {
@@ -644,6 +754,23 @@ impl Walk<'_> {
         best
     }
 }
+
+/// The size of the largest eigenvalue.
+fn largest(values: &[Complex<f64>]) -> f64 {
+    let sizes = values.iter().map(|l| l.norm());
+    sizes.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// A test that is a larger part than this of what it is beside its change of sign does not pass through zero there.
+const JUMP: f64 = 1e-2;
+/// A singular value below this part of what it is beside belongs to a second direction.
+const BRANCHING: f64 = 1e-3;
+/// Eigenvalues nearer to the axis are on it.
+const ON_AXIS: f64 = 1e-12;
+/// The same where several pass at once, which is found by bisection.
+const NEAR_AXIS: f64 = 1e-6;
+/// Bisections of a step for them.
+const BISECTIONS: usize = 44;
 
 /// Whether the parameter is at an end of the range.
 fn is_at_end(y: &DVector<f64>) -> bool {

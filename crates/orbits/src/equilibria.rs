@@ -1,12 +1,13 @@
 //! Equilibria and steady motions as solutions of `f(z, p) = 0`.
 
-use crate::branch::{Equations, Kind, Linearized};
+use crate::branch::{Equations, Kind, Linearized, FAMILY};
 use crate::error::OrbitError;
 use crate::flow::Flow;
 use crate::hopf::first_lyapunov;
 use crate::multipliers::{eigenvalues, Spectrum};
-use crate::subspace::decomposed;
+use crate::subspace::{decomposed, nullity};
 use chetaev_motion::functions::Functions;
+use chetaev_stability::eigenvalues::{balanced, Balanced};
 use chetaev_symbolic::Symbol;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -90,10 +91,27 @@ impl Equations for Equilibria<'_> {
         })
     }
 
+    /// Judged in suitable units of the variables, whose rates have the same; finite constraints in units of their own.
+    fn family(&self, by_unknowns: &DMatrix<f64>, _: &[f64]) -> usize {
+        let n = self.flow.n();
+        let Balanced { scale, unit, .. } = balanced(&by_unknowns.rows(0, n).into());
+        let mut own = by_unknowns.clone();
+        for (mut column, d) in own.column_iter_mut().zip(&scale) {
+            column *= *d;
+        }
+        for (at, mut row) in own.row_iter_mut().enumerate() {
+            let size = scale.get(at).map_or_else(|| row.norm(), |d| d * unit);
+            row /= size.max(f64::MIN_POSITIVE);
+        }
+        nullity(&own, FAMILY)
+    }
+
     /// On the range of ∂f/∂z, the complement of which structure gives, the zeros of finite constraints and of the family are not seen.
     fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError> {
         self.set(x, p)?;
-        let slopes = self.slopes();
+        // Subspaces are found to rounding of the largest entry: in suitable units of the variables.
+        let Balanced { matrix, unit, .. } = balanced(&self.slopes());
+        let slopes = matrix * unit;
         let finite = self.flow.finite.len();
         let names = std::iter::repeat_n("a finite constraint".to_owned(), finite);
         let of_family = std::iter::repeat_n("the family of steady motions".to_owned(), family);
@@ -109,6 +127,10 @@ impl Equations for Equilibria<'_> {
             eigenvalues(&range.tr_mul(&(slopes * &range)))?
         };
         Ok(Spectrum { values, trivial })
+    }
+
+    fn beyond(&self, value: Complex<f64>, size: f64) -> Option<f64> {
+        Some(value.re / size)
     }
 
     fn tests(&self, values: &[Complex<f64>]) -> Vec<f64> {

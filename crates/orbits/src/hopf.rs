@@ -20,7 +20,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 pub struct FirstLyapunov {
     /// ω.
     pub frequency: f64,
-    /// l₁: negative, and stable orbits are born where the motion loses its stability; positive, and unstable ones vanish there.
+    /// l₁, zero where it is so to rounding: it decides nothing then; negative, and stable orbits are born where the motion loses its stability; positive, and unstable ones vanish there.
     pub coefficient: f64,
 }
 
@@ -43,6 +43,9 @@ pub enum WithoutLyapunov {
         /// How many integrals and finite constraints were found.
         levels: usize,
     },
+    /// Several pairs at once.
+    #[error("the first Lyapunov coefficient is not defined: several eigenvalues are on the axis at once")]
+    Several,
     /// A family without an integral.
     #[error("the first Lyapunov coefficient is not defined: the motion belongs to a family of steady motions, and no integral that is known tells its members apart; oscillations drift along the family to where they {}", if *product > 0.0 { "grow: motions leave (Fiedler, Liebscher, Alexander)" } else { "die away (Fiedler, Liebscher, Alexander)" })]
     Drifts {
@@ -219,6 +222,8 @@ impl Level {
 const BESIDE: f64 = 1e-2;
 /// A rate below this part of its terms vanishes.
 const CONSTANT: f64 = 1e-9;
+/// A sum below this part of its terms is zero to rounding.
+const ROUNDED: f64 = 1e-9;
 /// Gradients nearer to each other depend on each other.
 const INDEPENDENT: f64 = 1e-9;
 
@@ -261,10 +266,23 @@ impl<'a> Pair<'a> {
         let complex = self.slopes.map(|x| Complex::new(x, 0.0));
         let doubled = (-shifted(&complex, 2.0 * self.frequency)).lu();
         let doubled = doubled.solve(&lines.complex(q, q)?)?;
-        let sum = cubic
-            + lines.complex(q, &constant)? * Complex::new(2.0, 0.0)
-            + lines.complex(&conjugate, &doubled)?;
-        Some(0.5 * self.p.dotc(&sum).re / self.frequency)
+        let parts = [
+            cubic,
+            lines.complex(q, &constant)? * Complex::new(2.0, 0.0),
+            lines.complex(&conjugate, &doubled)?,
+        ];
+        let terms = parts.iter().map(|own| self.p.dotc(own).re);
+        let sum: f64 = terms.sum();
+        let sizes = parts
+            .iter()
+            .map(|own| self.p.map(|z| z.norm()).dot(&own.map(|z| z.norm())));
+        let size: f64 = sizes.sum();
+        let sum = if sum.abs() <= ROUNDED * size {
+            0.0
+        } else {
+            sum
+        };
+        Some(0.5 * sum / self.frequency)
     }
 
     /// h with `A h = −B(q, q̄)` on the levels.

@@ -40,6 +40,11 @@ const PERIOD: usize = 5;
 
 /// A gradient is that of an integral where a passage changes it by less, in parts of its size.
 const INVARIANT: f64 = 1e-7;
+/// Places beside an orbit at which rates of integrals are looked at, and how far they are, in parts of its size.
+const PLACES: usize = 3;
+const BESIDE: f64 = 1e-2;
+/// A rate below this part of its terms vanishes.
+const CONSTANT: f64 = 1e-9;
 /// An orbit that runs a shorter way in a period, in parts of the size of its state, is a steady motion.
 const AT_REST: f64 = 1e-6;
 /// Test functions below this vanish by structure.
@@ -181,6 +186,30 @@ impl<'f> Shooting<'f> {
     }
 }
 
+impl Shooting<'_> {
+    /// Whether the rate of a candidate for an integral vanishes beside a state at several times: its gradient may be invariant at one value of the
+    /// parameter alone, as where a multiplier passes 1. Off finite constraints that is not asked.
+    fn is_constant(&mut self, k: usize, state: &[f64]) -> Result<bool, OrbitError> {
+        let n = state.len();
+        if !self.flow.finite.is_empty() {
+            return Ok(true);
+        }
+        for at in 1..=PLACES {
+            let step = |i: usize| BESIDE * ((i * 7 + at * 3) as f64).sin();
+            let beside = state.iter().enumerate();
+            let beside: Vec<f64> = beside.map(|(i, z)| z + step(i) * (1.0 + z.abs())).collect();
+            let rates = self.rates(at as f64, &beside)?;
+            let slopes = &self.functions.group(GRADIENTS)[k * n..(k + 1) * n];
+            let terms: Vec<f64> = slopes.iter().zip(&rates).map(|(a, b)| a * b).collect();
+            let size: f64 = terms.iter().map(|x| x.abs()).sum();
+            if terms.iter().sum::<f64>().abs() > CONSTANT * size {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
 impl Equations for Shooting<'_> {
     fn what(&self) -> &'static str {
         "periodic orbit"
@@ -259,7 +288,9 @@ impl Equations for Shooting<'_> {
         for (k, (name, _)) in self.flow.conserved.iter().enumerate() {
             let gradient = DVector::from_column_slice(&gradients[k * n..(k + 1) * n]);
             let change = monodromy.tr_mul(&gradient) - &gradient;
-            if change.norm() <= INVARIANT * gradient.norm() * (1.0 + monodromy.norm()) {
+            let is_invariant =
+                change.norm() <= INVARIANT * gradient.norm() * (1.0 + monodromy.norm());
+            if is_invariant && self.is_constant(k, &x[..n])? {
                 left.push((name.clone(), gradient));
             }
         }

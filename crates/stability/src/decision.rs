@@ -7,10 +7,11 @@ use crate::characteristic::{LARGEST as VARIABLES, LARGEST_IN_NUMBERS};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Boundary, Crossing, Ranges};
 use crate::integrals::Jet;
-use crate::isolation::Root;
+use crate::isolation::{without_power, Root};
 use crate::problem::LinearizationError;
 use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
-use crate::real_roots::{decimal, real_roots, sign_of};
+use crate::real_roots::{decimal, overlap, sign_of, zeros_of_factors, Zero, FINE, USUAL};
+use crate::real_values::not_real;
 use crate::steady::closed;
 use crate::witness::RunsBeside;
 use chetaev_mechanics::claims::Context;
@@ -25,6 +26,7 @@ use std::any::{Any, TypeId};
 use std::cell::{OnceCell, RefCell};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fmt::Write as _;
 use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
@@ -158,10 +160,25 @@ pub(crate) fn about<'a>(
     let mut stated = system.steady.iter();
     let motion = stated.find(|s| Some(s.name.as_str()) == subject)?;
     let of = |over| About::new(cx, motion, &values_but(system, over), over);
+    if let Some(problem) = is_not_real(cx, motion) {
+        return Some(Err(problem));
+    }
     let general = parameter_of_motion(system, motion).map(|symbol| of(Some(symbol)));
     Some(match general {
         Some(Ok(found)) => Ok(found),
         _ => of(None),
+    })
+}
+
+/// What is said where what the motion states is not real at the values of the parameters that the model states.
+fn is_not_real(cx: &Context<'_>, motion: &SteadyMotion) -> Option<LinearizationError> {
+    let g = &cx.system.graph;
+    let stated = motion.positions.iter().chain(&motion.velocities);
+    let stated: Vec<Expr> = stated.flatten().copied().collect();
+    let stated = g.substitute_all(&stated, &values_but(cx.system, None));
+    not_real(g, &stated).map(|value| LinearizationError::NotReal {
+        motion: motion.name.clone(),
+        value: g.text(value),
     })
 }
 
@@ -213,6 +230,9 @@ pub(crate) fn closed_form(
 
 /// Bits of a discriminant with whose root is computed: with larger ones exact linear algebra takes long.
 const LARGEST: usize = 256;
+
+/// Digits of borders that are the same in double precision.
+const DIGITS: usize = 60;
 
 /// Bits of the enclosures of zeros in closed form.
 const BITS: usize = 256;
@@ -316,13 +336,32 @@ fn instead(
     let (system, motion) = (about.expansion.system, about.expansion.motion);
     let there = About::new(cx, motion, &values_but(system, None), None);
     let found = there.map(|there| at_values(&there, statement));
+    let name = about.graph().symbol_text(symbol);
     match found {
+        Ok(Verdict::Proved(proof)) => Verdict::Conditional {
+            condition: stated_value(about, symbol),
+            proof: Proof::exact(
+                "for the values of the parameters that are stated",
+                format!(
+                    "{}; nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed",
+                    proof.detail
+                ),
+            ),
+            counterexample: None,
+        },
         Ok(found) if !matches!(found, Verdict::Undecided { .. }) => found,
         _ => Verdict::undecided(format!(
-            "the boundaries of stability in {} were not enclosed",
-            about.graph().symbol_text(symbol)
+            "the boundaries of stability in {name} were not enclosed"
         )),
     }
+}
+
+/// `p = 2`, as the model states it.
+fn stated_value(about: &About<'_>, symbol: Symbol) -> String {
+    let g = about.graph();
+    let own = g.symbol_expr(symbol);
+    let value = g.substitute(own, &about.expansion.system.parameter_values());
+    format!("{} = {}", g.text(own), g.text(value))
 }
 
 /// What the eigenvalues do at a value of the parameter; `None` where that was not decided, or there is no such motion.
@@ -349,7 +388,11 @@ fn exists(about: &About<'_>, values: &[(Expr, Expr)]) -> bool {
 /// What is said where the model states a value for every parameter.
 fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
     let Some(place) = about.question.place_at(about.graph(), None) else {
-        return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
+        return Verdict::undecided(if about.question.is_mass_singular() {
+            "the mass matrix is singular at the motion: the equations determine no accelerations there"
+        } else {
+            "the signs of Hurwitz's determinants were not decided"
+        });
     };
     match statement.said(about, place, None) {
         Said::Holds(why) => Verdict::Proved(Proof::exact(
@@ -449,18 +492,31 @@ impl Pieces {
             .filter(|&e| g.as_number(e).is_none() && !g.symbols_in(&[e]).is_empty())
             .collect();
         let admitted =
-            AdmissibleValues::new(about.expansion.system, about.expansion.motion, symbol);
+            AdmissibleValues::new(about.expansion.system, &about.expansion.found, symbol);
         let cutting = [further.clone(), admitted.functions()].concat();
         let mut bound = question.bound(g)?;
         if !cutting.is_empty() {
             bound = bound.max(bound_of(g, &cutting, symbol)?);
         }
         let low = -bound.clone();
-        let ranges = question.ranges(g, &low, &bound)?;
-        let mut cuts = Vec::new();
-        for &e in &cutting {
-            cuts.extend(real_roots(g, e, symbol, &low, &bound)?);
-        }
+        let enclosed = |halvings: usize| {
+            let ranges = question.ranges_within(g, (&low, &bound), halvings)?;
+            let mut cuts = Vec::new();
+            for &e in &cutting {
+                cuts.extend(zeros_of_factors(g, e, symbol, (&low, &bound), halvings)?);
+            }
+            Some((ranges, cuts))
+        };
+        let are_apart = |(ranges, cuts): &(Ranges, Vec<Zero>)| {
+            ranges.are_apart && !overlap(&[ranges.zeros.clone(), cuts.clone()].concat())
+        };
+        let usual = enclosed(USUAL)?;
+        let (ranges, cuts) = if are_apart(&usual) {
+            usual
+        } else {
+            enclosed(FINE)?
+        };
+        let cuts = cuts.into_iter().map(|own| own.root).collect();
         let mut own = Pieces {
             name: g.symbol_text(symbol),
             bound,
@@ -610,7 +666,10 @@ impl Pieces {
             if !failing.is_empty() {
                 known = format!("{known}false for {failing}; ");
             }
-            let open = self.intervals(|said| matches!(said, Said::Open(_)));
+            let mut open = self.intervals(|said| matches!(said, Said::Open(_)));
+            for border in self.borders.iter().filter(|b| b.holds.is_none()) {
+                let _ = write!(open, " and at {}", border.place(&self.name));
+            }
             return Verdict::undecided(format!("{known}not decided for {open}: {why}"));
         }
         let counterexample = self.failing(about).map(|(piece, at)| Counterexample {
@@ -621,6 +680,22 @@ impl Pieces {
             }],
             ..statement.counterexample(about, piece.place, Some(&at))
         });
+        let alone = self.borders.iter().filter(|b| b.holds.is_none());
+        let alone: Vec<String> = alone.map(|b| b.place(&self.name)).collect();
+        if condition.is_empty() && counterexample.is_some() && !alone.is_empty() {
+            let failing = self.intervals(|said| *said == Said::Fails);
+            return match counterexample {
+                Some(own) => Verdict::Refuted(Counterexample {
+                    detail: format!(
+                        "{}; false for {failing}, and not decided at {}",
+                        own.detail,
+                        alone.join(", ")
+                    ),
+                    ..own
+                }),
+                None => Verdict::undecided(format!("not decided at {}", alone.join(", "))),
+            };
+        }
         let is_everywhere = self.borders.iter().all(|b| b.holds == Some(true));
         match (condition.is_empty(), counterexample) {
             (true, Some(own)) => Verdict::Refuted(own),
@@ -680,11 +755,28 @@ impl Pieces {
         let (from, to) = (*low != -self.bound.clone(), *high != self.bound);
         let (less, upper) = (sign("<", "<=", is_low), sign("<", "<=", is_high));
         match (from, to) {
-            (true, true) => format!("{} {less} {name} {upper} {}", decimal(low), decimal(high)),
-            (true, false) => format!("{name} {} {}", sign(">", ">=", is_low), decimal(low)),
-            (false, true) => format!("{name} {upper} {}", decimal(high)),
+            (true, true) => format!(
+                "{} {less} {name} {upper} {}",
+                self.decimal(low),
+                self.decimal(high)
+            ),
+            (true, false) => format!("{name} {} {}", sign(">", ">=", is_low), self.decimal(low)),
+            (false, true) => format!("{name} {upper} {}", self.decimal(high)),
             (false, false) => format!("{name} is any number"),
         }
+    }
+
+    /// A value as a person reads it, with as many digits as tell it from other borders.
+    fn decimal(&self, at: &RBig) -> String {
+        let own = decimal(at);
+        let is_same = |b: &&Border| [&b.root.low, &b.root.high].map(decimal).contains(&own);
+        if self.borders.iter().filter(is_same).count() < 2 {
+            return own;
+        }
+        let (low, _) = Precision::new(BITS)
+            .rational(at)
+            .to_decimal_interval(DIGITS);
+        without_power(&low)
     }
 
     /// An interval in which the statement fails, and a value there: the one that the model states where it is among them.

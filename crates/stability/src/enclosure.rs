@@ -4,6 +4,8 @@
 //! both values are computed with balls.
 
 use crate::eigenvalues::spectrum;
+use crate::isolation::Root;
+use crate::real_roots::ball;
 use crate::spectrum::Polynomial;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -37,6 +39,25 @@ pub fn right_of_axis(
     found
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, own)| own)
+}
+
+/// Whether an eigenvalue is proved to lie right of the axis at the value of a parameter that an interval encloses.
+pub fn is_right_of_axis_at(
+    g: &Graph,
+    polynomials: &[Polynomial],
+    (symbol, root): (Symbol, &Root),
+) -> bool {
+    let over = ball(&root.low, &root.high);
+    let value = |s: Symbol| (s == symbol).then(|| over.clone());
+    let precision = Precision::new(BITS);
+    polynomials.iter().any(|own| {
+        let coefficients = g.enclose(own, &precision, &value).ok();
+        let numbers = coefficients.map(|coefficients| Numbers {
+            precision: Precision::new(BITS),
+            coefficients,
+        });
+        numbers.and_then(|own| own.right()).is_some()
+    })
 }
 
 /// A polynomial with enclosed coefficients.
@@ -74,10 +95,9 @@ impl Numbers {
         if start.0 <= 0.0 {
             return None;
         }
-        let ball = |x: f64| Ball::from_f64(x);
         let mut z = Complex {
-            re: ball(start.0)?,
-            im: ball(start.1)?,
+            re: Ball::from_f64(start.0)?,
+            im: Ball::from_f64(start.1)?,
         };
         for _ in 0..STEPS {
             let (value, slope) = self.at(&z)?;

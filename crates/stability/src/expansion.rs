@@ -2,13 +2,16 @@
 
 use crate::guess::near;
 use crate::problem::LinearizationError;
+use crate::real_values::not_real;
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, completed, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::zero::{decide_zero, ZeroTest};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use nalgebra::DMatrix;
 
 /// What is linearized about what.
@@ -21,6 +24,8 @@ pub struct Expansion<'a> {
     pub own: ClosedSystem,
     /// The motion.
     pub motion: &'a SteadyMotion,
+    /// The motion with what was found in the place of guesses.
+    pub found: SteadyMotion,
     state: State,
     /// Values of the parameters that are put in.
     pub(crate) values: Vec<(Expr, Expr)>,
@@ -53,6 +58,16 @@ impl<'a> Expansion<'a> {
         (values, speeds): (&[(Expr, Expr)], Speeds),
     ) -> Result<Expansion<'a>, LinearizationError> {
         let found = near(system, terms, selection, (motion, values))?;
+        let g = &system.graph;
+        let stated = found.positions.iter().chain(&found.velocities);
+        let stated: Vec<Expr> = stated.flatten().copied().collect();
+        let stated = g.substitute_all(&stated, values);
+        if let Some(value) = not_real(g, &stated) {
+            return Err(LinearizationError::NotReal {
+                motion: motion.name.clone(),
+                value: g.text(value),
+            });
+        }
         let state = completed(&found, system, terms, &selection.rows, values)?;
         let numbers = point(system, &state, values);
         let rows = selection.rows.iter();
@@ -73,6 +88,7 @@ impl<'a> Expansion<'a> {
             selection,
             own: ClosedSystem::about(system, terms, selection, (speeds, operating))?,
             motion,
+            found: found.into_owned(),
             state,
             values: values.to_vec(),
         };
@@ -196,7 +212,7 @@ impl<'a> Expansion<'a> {
         let mut moving = of_coordinates
             .chain(of_speeds)
             .zip(rates)
-            .filter(|(_, rate)| !g.is_zero(*rate));
+            .filter(|(_, rate)| !is_proved_zero(self.system, *rate));
         match moving.next() {
             None => Ok(()),
             Some((name, rate)) => Err(LinearizationError::NotSteady {
@@ -323,6 +339,18 @@ fn is_singular(
 
 /// A singular value below this part of the largest may be zero.
 const CLOSE: f64 = 1e-9;
+
+/// Whether an expression is proved to vanish, by its form or by the exact test for zero.
+fn is_proved_zero(system: &System, e: Expr) -> bool {
+    let g = &system.graph;
+    if g.is_zero(e) || enclosure(g, e).is_some() {
+        return g.is_zero(e);
+    }
+    let assumptions = assumptions(system);
+    let es = [e];
+    let test = ZeroTest::everywhere(&es, &assumptions);
+    matches!(decide_zero(g, &test), Verdict::Proved(_))
+}
 
 /// Bounds of a number, with 20 digits.
 fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {

@@ -5,7 +5,7 @@
 //! coefficient vanishes is passed by a real eigenvalue, one where Δ_{m−1} does by a pair (Orlando 1911).
 
 use crate::isolation::Root;
-use crate::real_roots::{real_roots, sign_at};
+use crate::real_roots::{overlap, sign_at, zeros_of_factors, Zero, FINE, USUAL};
 use crate::steady::closed;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::meter;
@@ -170,6 +170,10 @@ pub struct Ranges {
     pub boundaries: Vec<Boundary>,
     /// Regions between them, ascending.
     pub regions: Vec<Region>,
+    /// Whether no enclosure holds boundaries of two functions that may be different ones.
+    pub are_apart: bool,
+    /// The zeros that are the boundaries.
+    pub(crate) zeros: Vec<Zero>,
 }
 
 /// Where in the interval from `low` to `high` of `symbol` all zeros of the polynomials lie left of the axis. `leading` vanishes where an
@@ -182,11 +186,27 @@ pub fn ranges(
     low: &RBig,
     high: &RBig,
 ) -> Option<Ranges> {
+    let found = ranges_within(g, (polynomials, leading), symbol, (low, high), USUAL)?;
+    if found.are_apart {
+        return Some(found);
+    }
+    ranges_within(g, (polynomials, leading), symbol, (low, high), FINE)
+}
+
+/// The same with boundaries enclosed to a power of two.
+pub(crate) fn ranges_within(
+    g: &Graph,
+    (polynomials, leading): (&[Deciding], Expr),
+    symbol: Symbol,
+    (low, high): (&RBig, &RBig),
+    halvings: usize,
+) -> Option<Ranges> {
     let range = Over {
         g,
         symbol,
         low,
         high,
+        halvings,
     };
     let mut lists = Vec::new();
     let mut all = range.boundaries(leading, Crossing::Infinity)?;
@@ -195,7 +215,9 @@ pub fn ranges(
         all.extend(boundaries);
         lists.push(list);
     }
-    let mut boundaries = distinct(all);
+    let zeros: Vec<Zero> = all.iter().map(|(_, zero)| zero.clone()).collect();
+    let are_apart = !overlap(&zeros);
+    let mut boundaries = distinct(all.into_iter().map(|own| own.0).collect());
     let mut regions: Vec<Region> = Vec::new();
     let lows = std::iter::once(low).chain(boundaries.iter().map(|b| &b.root.high));
     let highs = boundaries.iter().map(|b| &b.root.low).chain([high]);
@@ -216,8 +238,13 @@ pub fn ranges(
     Some(Ranges {
         boundaries,
         regions,
+        are_apart,
+        zeros,
     })
 }
+
+/// Boundaries, each with the zero that it is.
+type Boundaries = Vec<(Boundary, Zero)>;
 
 /// A range of one parameter.
 struct Over<'a> {
@@ -225,22 +252,26 @@ struct Over<'a> {
     symbol: Symbol,
     low: &'a RBig,
     high: &'a RBig,
+    halvings: usize,
 }
 
 impl Over<'_> {
     /// The zeros of a function as boundaries.
-    fn boundaries(&self, e: Expr, crossing: Crossing) -> Option<Vec<Boundary>> {
+    fn boundaries(&self, e: Expr, crossing: Crossing) -> Option<Boundaries> {
         if self.g.as_number(e).is_some_and(|_| !self.g.is_zero(e)) {
             return Some(Vec::new());
         }
-        let roots = real_roots(self.g, e, self.symbol, self.low, self.high)?;
-        let roots = roots.into_iter();
-        Some(roots.map(|root| Boundary { root, crossing }).collect())
+        let zeros = zeros_of_factors(self.g, e, self.symbol, (self.low, self.high), self.halvings)?;
+        let boundary = |zero: Zero| {
+            let root = zero.root.clone();
+            (Boundary { root, crossing }, zero)
+        };
+        Some(zeros.into_iter().map(boundary).collect())
     }
 
     /// Leading coefficient and determinants of a polynomial, and where the numbers of zeros on both sides of the axis may change: where a zero
     /// is at infinity or at 0, or two are opposite, as Δ_{m−1} says (Orlando 1911).
-    fn of(&self, own: &Deciding) -> Option<(Vec<Expr>, Vec<Boundary>)> {
+    fn of(&self, own: &Deciding) -> Option<(Vec<Expr>, Boundaries)> {
         let leading = *own.coefficients.last()?;
         let list = determinants(self.g, &own.coefficients);
         let pair = if own.is_paired {
@@ -322,9 +353,35 @@ fn name_pairs(boundaries: &mut [Boundary], regions: &[Region]) {
 }
 
 impl Ranges {
-    /// The same for a person: without the boundaries at which two eigenvalues are opposite while others stay right of the axis on both sides.
+    /// The same with regions that end at these values too.
     #[must_use]
-    pub fn joined(&self) -> Ranges {
+    pub fn cut_at(&self, ends: &[Root]) -> Ranges {
+        let mut regions: Vec<Region> = Vec::new();
+        for own in &self.regions {
+            let mut rest = own.clone();
+            let is_inside = |end: &&Root| own.low < end.low && end.high < own.high;
+            let mut inside: Vec<&Root> = ends.iter().filter(is_inside).collect();
+            inside.sort_by(|a, b| a.low.cmp(&b.low));
+            for end in inside.into_iter().filter(|end| end.low >= own.low) {
+                let mut below = rest.clone();
+                below.high = end.low.clone();
+                below.sample = (&below.low + &below.high) / RBig::from(2);
+                regions.push(below);
+                rest.low = end.high.clone();
+                rest.sample = (&rest.low + &rest.high) / RBig::from(2);
+            }
+            regions.push(rest);
+        }
+        Ranges {
+            regions,
+            ..self.clone()
+        }
+    }
+
+    /// The same for a person: without the boundaries at which two eigenvalues are opposite while others stay right of the axis, on both sides
+    /// and, as is said of each, there.
+    #[must_use]
+    pub fn joined(&self, is_unstable_at: &dyn Fn(&Root) -> bool) -> Ranges {
         let (mut boundaries, mut regions) = (self.boundaries.clone(), self.regions.clone());
         let mut at = 0;
         while at + 1 < regions.len() {
@@ -333,7 +390,11 @@ impl Ranges {
                 .iter()
                 .position(|b| b.root.low >= regions[at].high && b.root.high <= regions[at + 1].low);
             match between {
-                Some(place) if is_same && boundaries[place].crossing == Crossing::Touching => {
+                Some(place)
+                    if is_same
+                        && boundaries[place].crossing == Crossing::Touching
+                        && is_unstable_at(&boundaries[place].root) =>
+                {
                     boundaries.remove(place);
                     let next = regions.remove(at + 1);
                     regions[at].high = next.high;
@@ -341,9 +402,12 @@ impl Ranges {
                 _ => at += 1,
             }
         }
+        boundaries.retain(|own| own.crossing != Crossing::Touching || !is_unstable_at(&own.root));
         Ranges {
             boundaries,
             regions,
+            are_apart: self.are_apart,
+            zeros: self.zeros.clone(),
         }
     }
 }

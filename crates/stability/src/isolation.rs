@@ -4,6 +4,7 @@
 //! differ, exactly one; others are halved (R. E. Moore, Interval Analysis, 1966).
 
 use chetaev_symbolic::number::ball::Precision;
+use dashu_int::IBig;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
@@ -38,7 +39,7 @@ impl Root {
 }
 
 /// A decimal number of usual size without a power of ten: `4.2924e0` as 4.2924, `4.6e-1` as 0.46.
-fn without_power(decimal: &str) -> String {
+pub(crate) fn without_power(decimal: &str) -> String {
     let parts = decimal.split_once('e');
     let parts = parts.and_then(|(digits, power)| Some((digits, power.parse::<i32>().ok()?)));
     let Some((digits, power)) = parts.filter(|(_, power)| (-4..=9).contains(power)) else {
@@ -81,7 +82,8 @@ pub(crate) trait Enclosed {
     fn between(&self, low: &RBig, high: &RBig) -> Look;
 }
 
-/// The zeros between two numbers, not counted those at the ends; each interval is halved so often. `None` where more intervals would have to be
+/// The zeros between two numbers, not counted those at the ends; each interval is halved so often, and on until it is as small a part of the
+/// zero itself, however wide the range. `None` where more intervals would have to be
 /// looked at, or a sign is not decided, as at a multiple zero.
 pub(crate) fn isolated(
     function: &impl Enclosed,
@@ -123,6 +125,16 @@ fn beside_zeros(function: &impl Enclosed, a: &RBig, b: &RBig) -> Option<RBig> {
     places.find(|place| function.sign(place).is_some_and(|s| s != Ordering::Equal))
 }
 
+/// Halvings for zeros that are small against the range: 2^−1000 of it at least.
+const FURTHER: usize = 1_000;
+
+/// Whether an interval is at most the part 2^−n of the numbers in it.
+fn is_small(a: &RBig, b: &RBig, halvings: usize) -> bool {
+    let size = |x: &RBig| x.clone().max(-x.clone());
+    let smallest = size(a).min(size(b));
+    (b - a) * RBig::from(IBig::ONE << halvings) <= smallest
+}
+
 /// The zero between two places with different signs, `left` being that of the lower one; as close as signs are decided.
 fn refined(
     function: &impl Enclosed,
@@ -131,7 +143,10 @@ fn refined(
     left: Ordering,
     halvings: usize,
 ) -> Option<Root> {
-    for _ in 0..halvings {
+    for step in 0..halvings + FURTHER {
+        if step >= halvings && is_small(&a, &b, halvings) {
+            break;
+        }
         let middle = (&a + &b) / RBig::from(2_u8);
         // Where the zero is the middle itself its sign may be undecided.
         let place = match function.sign(&middle) {

@@ -4,7 +4,7 @@
 //! uniformly. What is asked, in this order, and where it is decided:
 //!
 //! 1. *Which motion?* [`steady`]: positions and velocities, completed by the constraints; [`expansion`] checks them, exactly, and expands
-//!    functions about them; [`problem`] says why that cannot be.
+//!    functions about them; `real_values` says where they are real numbers; [`problem`] says why that cannot be.
 //! 2. *On which variables do the equations depend?* [`reduction`]: the smallest closed system of coordinates and quasi-velocities.
 //! 3. *What are the linear equations?* [`linearization`]: `E δz' = F δz`, exact in the parameters, on the tangent space of the finite
 //!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do, [`descriptor`] in all variables.
@@ -16,7 +16,8 @@
 //!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
 //!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`, that of a `critical` direction.
 //!    [`witness`]: runs beside it as a witness where nothing is decided.
-//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots;
+//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots,
+//!    in as many `charts` of independent velocities as that takes;
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
@@ -25,6 +26,7 @@ mod branch;
 mod branching;
 pub mod bundle;
 pub mod characteristic;
+mod charts;
 pub mod claims;
 mod critical;
 mod decision;
@@ -44,15 +46,18 @@ mod lines;
 mod methods;
 pub mod multiplicity;
 mod neighbourhood;
+mod parameter_values;
 pub mod parts;
 pub mod problem;
 pub mod question;
 pub mod real_roots;
+mod real_values;
 mod real_zeros;
 pub mod reduction;
 pub mod spectrum;
 pub mod state_space;
 pub mod steady;
+mod steady_motions;
 pub mod steady_set;
 mod steady_value;
 mod theorem;

@@ -42,6 +42,14 @@ pub enum LinearizationError {
         /// The motion.
         motion: String,
     },
+    /// A position or a velocity that is no real number.
+    #[error("there is no motion `{motion}`: {value} is not real")]
+    NotReal {
+        /// The motion.
+        motion: String,
+        /// What is stated of it.
+        value: String,
+    },
     /// A finite constraint does not hold.
     #[error("the motion `{motion}` is not admissible: the constraint `{constraint}` is off by {residual}")]
     NotAdmissible {

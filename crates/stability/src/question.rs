@@ -1,15 +1,18 @@
 //! The question of stability as it is asked of a system: linear equations, their characteristic polynomial, and the ranges of one parameter in
 //! which the eigenvalues that were not split off lie left of the axis, or on it.
 
+use crate::admissible_values::AdmissibleValues;
 use crate::characteristic::Characteristic;
+use crate::enclosure::is_right_of_axis_at;
 use crate::expansion::Expansion;
-use crate::hurwitz::{are_positive, determinants, ranges, Deciding, Ranges};
+use crate::hurwitz::{are_positive, determinants, ranges, ranges_within, Deciding, Ranges};
+use crate::isolation::Root;
 use crate::linearization::{Linearization, LinearizationError};
-use crate::real_roots::{sign_at, sign_of};
+pub use crate::parameter_values::{values_at, values_but, values_but_these};
+pub use crate::real_roots::bound_of;
+use crate::real_roots::{real_roots, sign_at, sign_of};
 use crate::spectrum::Spectrum;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
-use chetaev_symbolic::factors::coefficients;
-use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
@@ -102,7 +105,48 @@ impl Question {
         ranges(g, &self.deciding(g), leading, self.over?, low, high)
     }
 
-    /// A number beyond which, on both sides, nothing changes any more: Cauchy's bound of the zeros of all determinants.
+    /// The same with boundaries enclosed to a power of two.
+    pub(crate) fn ranges_within(
+        &self,
+        g: &Graph,
+        (low, high): (&RBig, &RBig),
+        halvings: usize,
+    ) -> Option<Ranges> {
+        let leading = *self.polynomial.as_ref()?.coefficients.last()?;
+        let deciding = self.deciding(g);
+        ranges_within(g, (&deciding, leading), self.over?, (low, high), halvings)
+    }
+
+    /// Where in an interval of the parameter that was left in the motion begins or ceases to be real; none where that was not decided.
+    pub fn real_ends(&self, about: &Expansion<'_>, low: &RBig, high: &RBig) -> Vec<Root> {
+        let Some(symbol) = self.over else {
+            return Vec::new();
+        };
+        let g = &about.system.graph;
+        let real = AdmissibleValues::reality(about.system, &about.found, symbol).real;
+        let roots = real.functions().into_iter();
+        let roots = roots.filter_map(|e| real_roots(g, e, symbol, low, high));
+        roots.flatten().collect()
+    }
+
+    /// Whether the motion is proved not to be real at a value of the parameter that was left in.
+    pub fn is_absent(&self, about: &Expansion<'_>, at: &RBig) -> bool {
+        let g = &about.system.graph;
+        self.over.is_some_and(|symbol| {
+            let reality = AdmissibleValues::reality(about.system, &about.found, symbol);
+            reality.real.contains(g, at) == Some(false)
+        })
+    }
+
+    /// Whether an eigenvalue is proved to lie right of the axis at the value of the parameter in an enclosure.
+    pub fn is_unstable_at(&self, g: &Graph, root: &Root) -> bool {
+        let factors = self.spectrum.factors.iter().map(|(f, _)| f.clone());
+        let factors: Vec<_> = factors.collect();
+        self.over
+            .is_some_and(|symbol| is_right_of_axis_at(g, &factors, (symbol, root)))
+    }
+
+    /// A number beyond which, on both sides, nothing changes any more: twice Cauchy's bound of the zeros of all determinants.
     pub fn bound(&self, g: &Graph) -> Option<RBig> {
         self.polynomial.as_ref()?;
         bound_of(g, &self.boundary_functions(g), self.over?)
@@ -125,7 +169,9 @@ impl Question {
     /// What the eigenvalues do, at a value of the parameter that was left in, if one was; `None` where that was not decided.
     pub fn place_at(&self, g: &Graph, at: Option<&RBig>) -> Option<Place> {
         let sign = |e: Expr| self.sign(g, e, at);
-        if sign(*self.polynomial.as_ref()?.coefficients.last()?)? == Ordering::Equal {
+        if self.is_mass_singular()
+            || sign(*self.polynomial.as_ref()?.coefficients.last()?)? == Ordering::Equal
+        {
             return None;
         }
         let (mut is_left, mut is_apart_everywhere) = (true, true);
@@ -154,6 +200,14 @@ impl Question {
         })
     }
 
+    /// Whether the masses are singular, whatever the parameter: fewer eigenvalues are finite than there are variables.
+    pub fn is_mass_singular(&self) -> bool {
+        let size = self.linear.variables.len();
+        self.polynomial
+            .as_ref()
+            .is_some_and(|own| own.degree() + own.zeros + own.further_zeros < size)
+    }
+
     /// The sign of an expression of the parameter that was left in, at a value of it.
     pub fn sign(&self, g: &Graph, e: Expr, at: Option<&RBig>) -> Option<Ordering> {
         match self.over.zip(at) {
@@ -161,12 +215,6 @@ impl Question {
             None => sign_of(g, e),
         }
     }
-}
-
-/// A number beyond which, on both sides, none of these functions of a parameter vanishes; `None` where one is no polynomial.
-pub fn bound_of(g: &Graph, es: &[Expr], symbol: Symbol) -> Option<RBig> {
-    let bounds = es.iter().map(|&e| cauchy_bound(g, e, symbol));
-    bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max()
 }
 
 /// The parameter over whose values a motion is judged: the one that the model names for it, else the one that occurs in the motion and not in
@@ -192,82 +240,4 @@ pub fn parameter_of_motion(system: &System, motion: &SteadyMotion) -> Option<Sym
     let of_motion = g.symbols_in(&given).into_iter();
     let mut free = of_motion.filter(|s| !used.contains(s));
     free.next().filter(|_| free.next().is_none())
-}
-
-/// The values of all parameters but one. Parameters whose definitions contain that one are put in by their definitions.
-pub fn values_but(system: &System, over: Option<Symbol>) -> Vec<(Expr, Expr)> {
-    values_but_these(system, over.as_slice())
-}
-
-/// The values of all parameters but some. Parameters whose definitions contain one of these are put in by their definitions.
-pub fn values_but_these(system: &System, over: &[Symbol]) -> Vec<(Expr, Expr)> {
-    let g = &system.graph;
-    let all = system.parameter_values();
-    if over.is_empty() {
-        return all;
-    }
-    let mut values: Vec<(Expr, Expr)> = Vec::new();
-    for (symbol, value) in all {
-        let definition = system
-            .definitions
-            .iter()
-            .find(|(own, _)| *own == symbol)
-            .map(|(_, e)| *e);
-        let expanded = definition.map(|e| expanded(system, e));
-        match expanded.filter(|&e| g.contains_any(e, over)) {
-            Some(e) => values.push((symbol, with_values(system, e, over))),
-            None if g.as_symbol(symbol).is_some_and(|s| over.contains(&s)) => {}
-            None => values.push((symbol, value)),
-        }
-    }
-    values
-}
-
-/// A definition with the definitions that it uses.
-fn expanded(system: &System, e: Expr) -> Expr {
-    let g = &system.graph;
-    let mut e = e;
-    for _ in 0..system.definitions.len() {
-        let next = g.substitute(e, &system.definitions);
-        if next == e {
-            break;
-        }
-        e = next;
-    }
-    e
-}
-
-/// The values of all parameters with a value for one of them, and with what follows for those that are defined by it.
-pub fn values_at(system: &System, over: Symbol, at: Expr) -> Vec<(Expr, Expr)> {
-    let g = &system.graph;
-    let own = (g.symbol_expr(over), at);
-    let others = values_but(system, Some(over)).into_iter();
-    let others = others.map(|(symbol, value)| (symbol, g.substitute(value, &[own])));
-    others.chain([own]).collect()
-}
-
-/// An expression of parameters with the values of all but some.
-fn with_values(system: &System, e: Expr, over: &[Symbol]) -> Expr {
-    let g = &system.graph;
-    let values: Vec<(Expr, Expr)> = system.parameter_values();
-    let values: Vec<(Expr, Expr)> = values
-        .into_iter()
-        .filter(|(s, _)| !g.as_symbol(*s).is_some_and(|s| over.contains(&s)))
-        .collect();
-    g.substitute(e, &values)
-}
-
-/// 1 + max |aᵢ/aₙ| as an integer (Cauchy 1829); `None` where `e` is no polynomial with numbers as coefficients.
-fn cauchy_bound(g: &Graph, e: Expr, symbol: Symbol) -> Option<RBig> {
-    let precision = Precision::new(128);
-    let list = coefficients(g, e, symbol)?;
-    let balls = g.enclose(&list, &precision, &|_| None).ok()?;
-    let leading = balls.last().filter(|b| b.excludes_zero())?;
-    let mut bound = RBig::from(2);
-    for own in &balls {
-        let ratio = precision.abs(&precision.div(own, leading).ok()?);
-        let above = RBig::from(2) + ratio.upper().to_rational()?;
-        bound = bound.max(RBig::from(above.ceil()));
-    }
-    Some(bound)
 }

@@ -5,7 +5,7 @@
 
 use crate::isolation::{isolated, Enclosed, Look, Root};
 use crate::steady::closed;
-use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::factors::{coefficients, factors};
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
@@ -15,8 +15,10 @@ use std::cmp::Ordering;
 const BITS: usize = 256;
 /// At most so many intervals are looked at for one function: some hundred serve a polynomial of degree 20.
 const INTERVALS: usize = 40_000;
-/// A zero is enclosed to 2^−64 of the range: more than double precision shows.
-const REFINEMENTS: usize = 64;
+/// A zero is enclosed to 2^−64 of itself: more than double precision shows.
+pub(crate) const USUAL: usize = 64;
+/// The same where enclosures to [`USUAL`] overlap.
+pub(crate) const FINE: usize = 240;
 
 /// A rational number as a person reads it, rounded to double precision.
 pub fn decimal(value: &RBig) -> String {
@@ -36,15 +38,45 @@ pub fn real_roots(
     low: &RBig,
     high: &RBig,
 ) -> Option<Vec<Root>> {
+    let zeros = zeros_of_factors(g, e, symbol, (low, high), USUAL)?;
+    Some(zeros.into_iter().map(|own| own.root).collect())
+}
+
+/// A zero of a factor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Zero {
+    pub(crate) root: Root,
+    /// Factors of one function have no zero in common.
+    pub(crate) factor: Expr,
+}
+
+/// Whether enclosures of zeros of different factors overlap: they may hold one zero, or two.
+pub(crate) fn overlap(zeros: &[Zero]) -> bool {
+    let mut zeros: Vec<&Zero> = zeros.iter().collect();
+    zeros.sort_by(|a, b| a.root.low.cmp(&b.root.low));
+    zeros.windows(2).any(|pair| {
+        matches!(pair, [a, b] if a.factor != b.factor && a.root.low != a.root.high && b.root.low <= a.root.high)
+    })
+}
+
+/// The same with enclosures to a power of two, and with the factors.
+pub(crate) fn zeros_of_factors(
+    g: &Graph,
+    e: Expr,
+    symbol: Symbol,
+    (low, high): (&RBig, &RBig),
+    halvings: usize,
+) -> Option<Vec<Zero>> {
     let parts = match factors(g, e, &[symbol]) {
         Some(list) => list.into_iter().map(|(factor, _)| factor).collect(),
         None => vec![e],
     };
     let mut found = Vec::new();
-    for part in parts {
-        found.extend(Function::new(g, part, symbol).roots(low, high)?);
+    for factor in parts {
+        let roots = Function::new(g, factor, symbol).roots(low, high, halvings)?;
+        found.extend(roots.into_iter().map(|root| Zero { root, factor }));
     }
-    found.sort_by(|a, b| a.low.cmp(&b.low));
+    found.sort_by(|a, b| a.root.low.cmp(&b.root.low));
     found.dedup();
     Some(found)
 }
@@ -128,7 +160,7 @@ impl Function<'_> {
         self.precision.add(&own, &change).ok()
     }
 
-    fn roots(&self, low: &RBig, high: &RBig) -> Option<Vec<Root>> {
+    fn roots(&self, low: &RBig, high: &RBig, halvings: usize) -> Option<Vec<Root>> {
         let mut found: Vec<Root> = Vec::new();
         for end in [low, high] {
             if self.sign(end)? == Ordering::Equal {
@@ -139,7 +171,7 @@ impl Function<'_> {
             }
         }
         found.dedup();
-        found.extend(isolated(self, low, high, INTERVALS, REFINEMENTS)?);
+        found.extend(isolated(self, low, high, INTERVALS, halvings)?);
         Some(found)
     }
 }
@@ -174,4 +206,27 @@ pub(crate) fn ball(low: &RBig, high: &RBig) -> Ball {
     let precision = Precision::new(BITS);
     let union = precision.union(&point(low), &point(high));
     union.unwrap_or_else(|_| point(low))
+}
+
+/// A number beyond which, on both sides, none of these functions of a parameter vanishes, and well before which none does, so that there is
+/// room for samples; `None` where one is no polynomial.
+pub fn bound_of(g: &Graph, es: &[Expr], symbol: Symbol) -> Option<RBig> {
+    let bounds = es.iter().map(|&e| cauchy_bound(g, e, symbol));
+    let largest = bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max();
+    largest.map(|bound| bound * RBig::from(2))
+}
+
+/// 1 + max |aᵢ/aₙ| as an integer (Cauchy 1829); `None` where `e` is no polynomial with numbers as coefficients.
+fn cauchy_bound(g: &Graph, e: Expr, symbol: Symbol) -> Option<RBig> {
+    let precision = Precision::new(128);
+    let list = coefficients(g, e, symbol)?;
+    let balls = g.enclose(&list, &precision, &|_| None).ok()?;
+    let leading = balls.last().filter(|b| b.excludes_zero())?;
+    let mut bound = RBig::from(2);
+    for own in &balls {
+        let ratio = precision.abs(&precision.div(own, leading).ok()?);
+        let above = RBig::from(2) + ratio.upper().to_rational()?;
+        bound = bound.max(RBig::from(above.ceil()));
+    }
+    Some(bound)
 }

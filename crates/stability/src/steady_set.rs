@@ -5,9 +5,11 @@
 //! is free the motions are isolated, and every real one is enclosed; else they are a family with the free unknowns as parameters.
 
 use crate::branch::{Branch, Chain};
+use crate::charts::{is_assumed, is_singular_at, other_charts, union};
 use crate::problem::LinearizationError;
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, closed};
+pub use crate::steady_motions::{Found, SteadySet};
 use crate::steady_value::{fraction, Generators, Unknown};
 pub use crate::steady_value::{SteadySetError, Value};
 use chetaev_mechanics::constraint::ConstraintKind;
@@ -24,49 +26,6 @@ const SOMEWHERE: f64 = 0.377;
 /// More minors of the gradients of the constraints are not looked at.
 const MINORS: usize = 200;
 
-/// All steady motions.
-#[derive(Clone, Debug)]
-pub struct SteadySet {
-    /// The variables that are constant: coordinates that are not ignorable, then quasi-velocities.
-    pub variables: Vec<String>,
-    /// The quasi-velocities as functions of the velocities, by name.
-    pub speeds: Vec<(String, Expr)>,
-    /// Coordinates that run uniformly, or stand.
-    pub ignorable: Vec<String>,
-    /// The motions: isolated ones first, then families by their dimension.
-    pub found: Vec<Found>,
-    /// Functions in denominators: where one vanishes the equations are not defined, and nothing is said.
-    pub excluded: Vec<Expr>,
-    /// Whether the gradients of the constraints are proved independent everywhere; else nothing is said where they are not.
-    pub has_full_rank: bool,
-}
-
-/// An isolated steady motion, or a family of them.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// Its number, as a name.
-    pub name: String,
-    /// The variables, in the order of [`SteadySet::variables`].
-    pub values: Vec<Value>,
-    /// Parameters of the family, each with the variable whose value it is.
-    pub free: Vec<(Expr, usize)>,
-    /// What must not be negative for the motion to be real.
-    pub conditions: Vec<Expr>,
-    /// Equations between the variables that are not solved.
-    pub equations: Vec<Expr>,
-    /// The motion, where all values have a closed form.
-    pub motion: Option<SteadyMotion>,
-    /// Whether a real motion of the family is known; isolated ones are real.
-    pub is_real: bool,
-}
-
-impl Found {
-    /// The number of free parameters.
-    pub fn dimension(&self) -> usize {
-        self.free.len()
-    }
-}
-
 /// The steady motions of a system with these values of parameters; others stay symbols in general position.
 ///
 /// # Errors
@@ -77,8 +36,29 @@ pub fn steady_set(
     selection: &Selection,
     values: &[(Expr, Expr)],
 ) -> Result<SteadySet, SteadySetError> {
+    let mut set = in_chart(system, terms, selection, (values, Speeds::Suitable))?;
+    for chart in other_charts(selection, choices(system.n(), selection.rows.len())) {
+        if set.excluded.is_empty() {
+            break;
+        }
+        let other = in_chart(system, terms, &chart, (values, Speeds::Independent));
+        if let Some(other) = other.ok().filter(|other| other.ignorable == set.ignorable) {
+            union(system, &mut set, &other);
+        }
+    }
+    sort(&mut set.found);
+    Ok(set)
+}
+
+/// The steady motions where the speeds of one choice serve.
+fn in_chart(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    (values, speeds): (&[(Expr, Expr)], Speeds),
+) -> Result<SteadySet, SteadySetError> {
     let g = &system.graph;
-    let equations = Equations::new(system, terms, selection, values)?;
+    let equations = Equations::new(system, terms, selection, (values, speeds))?;
     let symbols: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
     let mut options = Options::proof(Budget::PROOF);
     options.base_angles = angles(g, &equations.vanishing, &symbols);
@@ -107,7 +87,9 @@ pub fn steady_set(
             equations: system_of_chain,
         };
         for branch in chain.branches()? {
-            found.push(found_of(&chain, &equations, branch));
+            let own = found_of(&chain, &equations, branch);
+            let is_assumed = is_assumed(system, &own, values);
+            found.push(Found { is_assumed, ..own });
         }
     }
     sort(&mut found);
@@ -139,7 +121,7 @@ impl<'a> Equations<'a> {
         system: &'a System,
         terms: &MotionTerms,
         selection: &Selection,
-        values: &[(Expr, Expr)],
+        (values, speeds): (&[(Expr, Expr)], Speeds),
     ) -> Result<Equations<'a>, SteadySetError> {
         let g = &system.graph;
         let numbers = system.parameter_values().into_iter();
@@ -152,7 +134,7 @@ impl<'a> Equations<'a> {
             numbers: &numbers,
             open: &[],
         };
-        let own = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, operating))?;
+        let own = ClosedSystem::about(system, terms, selection, (speeds, operating))?;
         let ignorable: Vec<Symbol> = own
             .ignorable(system)
             .into_iter()
@@ -209,6 +191,20 @@ impl<'a> Equations<'a> {
             || sum
                 .iter()
                 .all(|&e| g.as_number(e).is_some() && !g.is_zero(e))
+    }
+
+    /// Whether the mass matrix is singular along a motion.
+    fn is_singular_along(&self, values: &[Value]) -> bool {
+        let g = &self.system.graph;
+        let exact = |value: &Value| match value {
+            Value::Number { exact, .. } => *exact,
+            Value::Function(e) => Some(*e),
+            Value::Tied => None,
+        };
+        let symbols = self.unknowns.iter().map(|(s, _)| g.symbol_expr(*s));
+        let pairs = symbols.zip(values);
+        let pairs: Vec<(Expr, Expr)> = pairs.filter_map(|(s, v)| Some((s, exact(v)?))).collect();
+        is_singular_at(g, &self.own.equations.mass, [&pairs, &self.values])
     }
 
     fn speeds(&self) -> Vec<(String, Expr)> {
@@ -447,6 +443,8 @@ fn found_of(chain: &Chain<'_, '_>, equations: &Equations<'_>, branch: Branch) ->
     Found {
         name: String::new(),
         motion: all.map(|all| equations.motion("", &all)),
+        is_singular: equations.is_singular_along(&values),
+        is_assumed: true,
         is_real: branch.free.is_empty() || chain.has_real_point(),
         equations: chain.open_equations(&branch),
         conditions: branch

@@ -98,6 +98,8 @@ pub struct Stability {
     pub range: Option<Range>,
     /// Stability over it; `None` where none was asked for or it was not decided.
     pub ranges: Option<Ranges>,
+    /// For each region, whether the motion is not real there.
+    pub absent: Vec<bool>,
     /// The equations in state space.
     pub space: StateSpace,
     /// The equations in all variables, where they were asked for.
@@ -197,14 +199,6 @@ fn in_symbols(
     }
     let mut problem = None;
     for motion in &motions {
-        let motion = match near(&system, terms, &selection, (motion, &wanted_values)) {
-            Ok(found) => found,
-            Err(own) => {
-                problem = Some(own);
-                continue;
-            }
-        };
-        let motion = &*motion;
         let free = match &range {
             Some(range) => Some(range.symbol),
             None if wanted.symbolic || wanted.numbers => None,
@@ -215,6 +209,14 @@ fn in_symbols(
         } else {
             values_but(&system, free)
         };
+        let motion = match near(&system, terms, &selection, (motion, &values)) {
+            Ok(found) => found,
+            Err(own) => {
+                problem = Some(own);
+                continue;
+            }
+        };
+        let motion = &*motion;
         match Expansion::in_speeds(&system, terms, &selection, motion, (&values, speeds)) {
             Ok(about) => {
                 let question = Question::about(&about, free);
@@ -225,13 +227,19 @@ fn in_symbols(
                 let ranges = range
                     .as_ref()
                     .and_then(|r| question.ranges(&system.graph, &r.low, &r.high))
-                    .map(|found| found.joined());
+                    .map(|found| found.joined(&|root| question.is_unstable_at(&system.graph, root)))
+                    .zip(range.as_ref())
+                    .map(|(found, r)| found.cut_at(&question.real_ends(&about, &r.low, &r.high)));
+                let regions = ranges.iter().flat_map(|found: &Ranges| &found.regions);
+                let absent = regions.map(|own| question.is_absent(&about, &own.sample));
+                let absent = absent.collect();
                 return Ok(Stability {
                     motion: motion.clone(),
                     parts: Parts::of(&system.graph, &question.linear),
                     question,
                     range,
                     ranges,
+                    absent,
                     space,
                     all,
                     system,

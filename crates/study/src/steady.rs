@@ -84,6 +84,7 @@ impl Steady {
 
     fn completeness(&self) -> &'static str {
         match (self.set.found.is_empty(), self.is_symbolic) {
+            (true, _) if !self.set.excluded.is_empty() => "None was found where the equations are defined: they are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (true, _) => "There are none: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (false, false) => "These are all: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (false, true) => "These are all for parameters in general position: the equations are polynomial in the variables, their sines and cosines, and were solved exactly. For special values there may be others.",
@@ -120,6 +121,8 @@ impl Steady {
                 "equations": texts(&own.equations),
                 "not_negative": texts(&own.conditions),
                 "real": own.is_real,
+                "singular_mass": own.is_singular,
+                "assumed": own.is_assumed,
                 "closed_form": own.motion.is_some(),
             })
         };
@@ -165,6 +168,15 @@ fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
     parts.extend(needed.map(|&e| format!("where {} >= 0", g.text(e))));
     if !own.is_real {
         parts.push("no real motion of this family was found at the places tried".into());
+    }
+    if own.is_singular {
+        parts.push(
+            "the mass matrix is singular there, and the equations determine no accelerations"
+                .into(),
+        );
+    }
+    if !own.is_assumed {
+        parts.push("outside of what the model assumes".into());
     }
     match own.dimension() {
         0 => format!("  {}  {}\n", own.name, parts.join(", ")),

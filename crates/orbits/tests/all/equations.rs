@@ -111,7 +111,7 @@ fn lorenz() {
     is_close(frequency, 9.624_530_063_715_756, 1e-12);
     is_close(coefficient / 2.655_189_725_836_714e-4, 1.0, 1e-8);
     // Down the branch the two equilibria meet in the one at rest, at r = 1, where the curve turns back.
-    let fold = found.special.iter().find(|own| own.kind == Kind::Fold);
+    let fold = found.special.iter().find(|own| own.kind == Kind::Pitchfork);
     let fold = &fold.unwrap().point;
     is_close(fold.parameter, 1.0, 1e-7);
     let ends: Vec<f64> = [found.points.first(), found.points.last()]
@@ -191,6 +191,18 @@ fn mathieu() {
         v,
         g.neg(g.mul(&[g.sub(a, g.mul(&[g.integer(2), q, cos])), x])),
     ];
+    {
+        let parameters = vec![(a_s, 0.3), (qs, 0.5)];
+        let flow = Flow::of_rates(own.g.clone(), vec![xs, vs], rates.clone(), parameters);
+        let mut orbits = Shooting::new(&flow, Some(a_s), Some(g.pi())).unwrap();
+        let found = follow(&mut orbits, (&[0.0, 0.0], 0.3), (-1.0, 5.0), points(2000)).unwrap();
+        // The least zero of the continued fraction a = 2 q²/(a − 4 − q²/(a − 16 − …)).
+        is_close(
+            found.special[0].point.parameter,
+            -0.121_765_544_941_082_72,
+            2e-12,
+        );
+    }
     for (value, expected) in [
         (
             1.0,

@@ -207,12 +207,81 @@ theta = "-0.1 theta'"
     let critical = (9.81_f64 / 0.5).sqrt();
     is_close(lowest.special[0].point.parameter, critical, 1e-12);
     let side = follow(&mut equations, (&[1.0, 0.0], 6.0), (2.0, 8.0), points(300)).unwrap();
-    let fold = side.special.iter().find(|own| own.kind == Kind::Fold);
-    is_close(fold.unwrap().point.parameter, critical, 1e-6);
+    let turn = side.special.iter().find(|own| own.kind == Kind::Pitchfork);
+    is_close(turn.unwrap().point.parameter, critical, 1e-6);
     for own in &side.points {
         let expected = 9.81 / (0.5 * own.parameter * own.parameter);
         is_close(own.unknowns[0].cos(), expected, 1e-10);
     }
+}
+
+/// What happens along the rest at zero over p, with the values of p.
+fn happens(text: &str, state: &[(&str, f64)], range: (f64, f64)) -> Vec<(Kind, f64)> {
+    let (flow, _) = flow(text, state);
+    let parameter = flow.graph.intern_symbol("p", 0);
+    let mut equations = Equilibria::new(&flow, Some(parameter)).unwrap();
+    let rest = vec![0.0; state.len()];
+    let found = follow(&mut equations, (&rest, range.1), range, points(300)).unwrap();
+    let special = found.special.into_iter();
+    special.map(|own| (own.kind, own.point.parameter)).collect()
+}
+
+/// Two oscillators of frequencies 1 and √2 with the damping −p, and two of stiffness p: both pairs, and both zeros, pass at p = 0, where no
+/// product of them changes its sign.
+#[test]
+fn what_passes_together_is_seen() {
+    let model = |energy: &str, force: [&str; 2]| {
+        let [x, y] = force;
+        format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ p = 0.1 }}
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "{energy}"
+[forces]
+x = "{x}"
+y = "{y}"
+"#
+        )
+    };
+    let state = [("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)];
+    let pairs = model("1/2 x^2 + y^2", ["p x' - x^2 x'", "p y' - y^2 y'"]);
+    let mut frequencies = Vec::new();
+    for (kind, at) in happens(&pairs, &state, (-0.31, 0.4)) {
+        is_close(at, 0.0, 1e-6);
+        let Kind::Hopf { frequency, .. } = kind else {
+            panic!("{kind:?}");
+        };
+        frequencies.push(frequency);
+    }
+    frequencies.sort_by(f64::total_cmp);
+    assert_eq!(frequencies.len(), 2);
+    is_close(frequencies[0], 1.0, 1e-9);
+    is_close(frequencies[1], 2.0_f64.sqrt(), 1e-9);
+    let zeros = model("1/2 p x^2 + 1/2 p y^2", ["-x'", "-y'"]);
+    let found = happens(&zeros, &state, (-0.31, 0.4));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 0.0, 1e-6);
+}
+
+/// x'' = −x' − x/(p − 0.3): the eigenvalues go to infinity at p = 0.3, and none passes zero.
+#[test]
+fn an_eigenvalue_goes_to_infinity() {
+    let text = r#"
+coordinates = ["x"]
+parameters = { p = 0.1 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 x^2/(p - 0.3)"
+[forces]
+x = "-x'"
+"#;
+    let found = happens(text, &[("x", 0.0), ("x'", 0.0)], (-0.31, 0.9));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::Infinity);
+    is_close(found[0].1, 0.3, 1e-6);
 }
 
 /// A pendulum on a large orbit: its period is 4 K(sin(α/2)) √(l/g), and both multipliers are 1, of the energy and along the orbit.
@@ -518,4 +587,28 @@ fn a_mode_of_a_sleigh_leads_elsewhere() {
         .map(|i| weight(i) * slope(h * f64::from(i)))
         .sum();
     is_close(rows[3][0], integral * h / 3.0, 1e-7);
+}
+
+/// The same boundary of Mathieu's equation from a model.
+#[test]
+fn mathieu_from_a_model() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["x"]
+parameters = { a = 0.3, q = 0.5 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 (a - 2 q cos(2 t)) x^2"
+"#,
+        &[("x", 0.0), ("x'", 0.0)],
+    );
+    let a = flow.graph.intern_symbol("a", 0);
+    let mut orbits =
+        chetaev_orbits::periodic::Shooting::new(&flow, Some(a), Some(read("pi"))).unwrap();
+    let found = follow(&mut orbits, (&[0.0, 0.0], 0.3), (-1.0, 5.0), points(500)).unwrap();
+    is_close(
+        found.special[0].point.parameter,
+        -0.121_765_544_941_082_72,
+        2e-12,
+    );
 }

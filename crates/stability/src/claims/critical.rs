@@ -73,7 +73,7 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     let about = about(cx, Some(name))?.ok()?;
     let (g, question) = (about.graph(), &about.question);
     let symbol = question.over?;
-    let admitted = AdmissibleValues::new(cx.system, about.expansion.motion, symbol);
+    let admitted = AdmissibleValues::new(cx.system, &about.expansion.found, symbol);
     let ends = admitted.ends(g)?;
     let bound = question.bound(g)?;
     let over = Over {
@@ -88,6 +88,7 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     let parameter = g.symbol_text(symbol);
     let mut listed = Vec::new();
     let mut open = Vec::new();
+    let mut without_change = Vec::new();
     let is_admitted = |own: &&Boundary| {
         let found = over.admitted.contains_root(g, &own.root, &over.functions);
         found != Some(false)
@@ -96,20 +97,35 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
         match over.change(boundary) {
             Change::Is(how) => listed.push(format!("{} ({how})", over.place(boundary))),
             Change::Perhaps => open.push(over.place(boundary)),
+            Change::Without(how) => {
+                without_change.push(format!("{how} at {}", over.place(boundary)));
+            }
             Change::None => {}
         }
     }
     let mut said = match listed.as_slice() {
         [] if over.admitted.functions().is_empty() => {
-            format!("the stability of {name} is the same for all {parameter}")
+            format!("the spectral stability of {name} is the same for all {parameter}")
         }
-        [] => format!("the stability of {name} is the same for all {parameter} that are assumed"),
-        list => format!("the stability of {name} changes at {}", list.join(", at ")),
+        [] => format!(
+            "the spectral stability of {name} is the same for all {parameter} that are assumed"
+        ),
+        list => format!(
+            "the spectral stability of {name} changes at {}",
+            list.join(", at ")
+        ),
     };
+    if !without_change.is_empty() {
+        let _ = write!(
+            said,
+            "; without a change of stability {}",
+            without_change.join(", ")
+        );
+    }
     if !open.is_empty() {
         let _ = write!(
             said,
-            "; on both sides of {} it is the same, and of that value alone, where two eigenvalues are opposite, nothing is said",
+            "; on both sides of {} it is the same, and of that value alone nothing is said",
             open.join(" and of ")
         );
     }
@@ -134,6 +150,8 @@ struct Over<'a, 'c> {
 enum Change {
     /// The stability changes there, and how.
     Is(String),
+    /// Something happens, and the stability is the same there and on both sides.
+    Without(String),
     /// It may be another at that value alone.
     Perhaps,
     /// It is the same there and on both sides.
@@ -153,6 +171,14 @@ impl Over<'_, '_> {
         if before != after {
             return Change::Is(format!("{how}{}", towards(before, after)));
         }
+        let is_unstable = before == Some(Place::Right)
+            && self.about.question.is_unstable_at(self.about.graph(), root);
+        if is_unstable {
+            return match boundary.crossing {
+                Crossing::Touching => Change::None,
+                _ => Change::Without(format!("{how}, unstable on both sides and there,")),
+            };
+        }
         // What is unstable on both sides may stand on the axis between, as a body at rest that no spin makes stable.
         let there = self
             .exact(boundary)
@@ -160,10 +186,11 @@ impl Over<'_, '_> {
         match (there, before) {
             (Some(there), Some(beside)) if there == beside => match boundary.crossing {
                 Crossing::Touching => Change::None,
-                _ => Change::Is(format!("{how}, {} on both sides and there", word(beside))),
+                _ => Change::Without(format!("{how}, {} on both sides and there,", word(beside))),
             },
             (Some(Place::NotLeft) | None, _) | (_, None) => match boundary.crossing {
                 Crossing::Touching => Change::Perhaps,
+                _ if before.is_some() && before == after => Change::Perhaps,
                 _ => Change::Is(how.into()),
             },
             (Some(there), Some(beside)) => Change::Is(format!(

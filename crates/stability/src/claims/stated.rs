@@ -1,5 +1,6 @@
 //! The motion that the model names is admissible and steady.
 
+use crate::admissible_values::AdmissibleValues;
 use crate::decision::about;
 use crate::evidence::motions;
 use crate::problem::LinearizationError;
@@ -37,7 +38,20 @@ impl Claim for Stated {
         match about(cx, subject) {
             Some(Ok(own)) => {
                 let question = &own.question;
-                Verdict::Proved(Proof::exact(on(question), steadiness(question))).into()
+                let proof = Proof::exact(on(question), steadiness(question));
+                let real = |symbol| {
+                    let motion = &own.expansion.found;
+                    AdmissibleValues::reality(cx.system, motion, symbol).restriction(own.graph())
+                };
+                match question.over.and_then(real) {
+                    None => Verdict::Proved(proof),
+                    Some(condition) => Verdict::Conditional {
+                        condition,
+                        proof,
+                        counterexample: None,
+                    },
+                }
+                .into()
             }
             Some(Err(problem)) => refused(problem).into(),
             None => Verdict::undecided("the model names no such steady motion").into(),

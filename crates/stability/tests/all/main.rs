@@ -7,4 +7,5 @@ mod descriptor;
 mod reference;
 mod steady_set;
 mod theorems;
+mod values;
 mod verdicts;

@@ -510,7 +510,7 @@ fn the_tippe_top_turns_over_where_it_slides() {
     for (a, square, is_stable_below) in [("0.003", 188_352, true), ("-0.003", 141_264, false)] {
         let case = tippe_top(a, sliding);
         let linear = case.linear(&spinning(&case), "n").unwrap();
-        let found = case.ranges(&linear, "n", 1, 100).joined();
+        let found = case.ranges(&linear, "n", 1, 100).joined(&|_| true);
         assert_eq!(found.boundaries.len(), 1, "{a}: {found:?}");
         let root = &found.boundaries[0].root;
         let expected = Rational::from_parts(square.into(), 100_u32.into());

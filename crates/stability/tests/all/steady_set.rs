@@ -247,3 +247,87 @@ fn a_member_of_a_family_is_meant() {
     let found = meant(&Case::new(&own.replace("= 3/2", "= \"3/2\""))).unwrap();
     assert_eq!(found, [0.0, 0.0, 0.0, 1.5, 0.0, 0.0]);
 }
+
+/// A bead on a vertical circle or ellipse rests at its lowest and at its highest place, whichever of its coordinates is named first.
+#[test]
+fn the_order_of_coordinates_hides_no_rest() {
+    for (coordinates, constraint) in [
+        (r#"["x", "y"]"#, "x^2 + y^2 = 1"),
+        (r#"["y", "x"]"#, "x^2 + y^2 = 1"),
+        (r#"["x", "y"]"#, "x^2/4 + y^2 = 1"),
+    ] {
+        let case = Case::new(&format!(
+            r#"
+coordinates = {coordinates}
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "y"
+[constraints]
+wire = "{constraint}"
+"#
+        ));
+        let own = set(&case).unwrap();
+        let place = |name: &str| own.variables.iter().position(|own| own == name).unwrap();
+        let (x, y) = (place("x"), place("y"));
+        let points = own.found.iter().map(numbers);
+        let mut points: Vec<[f64; 2]> = points.map(|own| [own[x], own[y]]).collect();
+        points.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        assert_eq!(
+            points,
+            [[0.0, -1.0], [0.0, 1.0]],
+            "{coordinates} {constraint}"
+        );
+    }
+}
+
+/// Where β = ±π/2 the first two angles of a top turn about one axis and the mass matrix, with det = cos²β, is singular: that is
+/// said, as is what lies outside of the assumptions of a model.
+#[test]
+fn singular_places_of_angles_are_no_motions() {
+    let top = |assumed: &str| {
+        let case = Case::new(&format!(
+            r#"
+coordinates = ["al", "be", "ga"]
+assumptions = [{assumed}]
+parameters = {{ n = 3 }}
+[lagrangian]
+T = "1/2 (al'^2 cos(be)^2 + be'^2) + 1/2 (ga' + al' sin(be))^2"
+V = "cos(al) cos(be)"
+"#
+        ));
+        let own = set(&case).unwrap();
+        let place = own.variables.iter().position(|own| own == "be").unwrap();
+        let values = own
+            .found
+            .iter()
+            .filter_map(|found| match &found.values[place] {
+                Value::Number { ball, .. } => Some(ball.to_f64()),
+                Value::Function(e) => case
+                    .system
+                    .graph
+                    .evaluate_f64(&[*e], &|_| None)
+                    .ok()
+                    .map(|x| x[0]),
+                Value::Tied => None,
+            });
+        let marks = own
+            .found
+            .iter()
+            .map(|found| (found.is_singular, found.is_assumed));
+        values.zip(marks).collect::<Vec<(f64, (bool, bool))>>()
+    };
+    let half = std::f64::consts::FRAC_PI_2;
+    let is_place = |be: f64| (be.abs() - half).abs() < 1e-9;
+    let all = top("");
+    assert!(all.iter().any(|own| is_place(own.0)), "{all:?}");
+    assert!(
+        all.iter().all(|own| own.1 == (is_place(own.0), true)),
+        "{all:?}"
+    );
+    let narrow = top(r#""-pi/2 < be < pi/2""#);
+    assert_eq!(narrow.len(), all.len());
+    assert!(
+        narrow.iter().all(|own| own.1 .1 == (own.0.abs() < 1.0)),
+        "{narrow:?}"
+    );
+}

@@ -295,7 +295,14 @@ t1 = 0
 "t0'" = 0
 "#,
     );
-    assert_eq!(case.said("stability.nonlinear", "driving"), "refuted");
+    let verdict = case.verdict("stability.nonlinear", "driving");
+    assert_eq!(verdict.word(), "refuted");
+    // At rest nothing is known.
+    let said = verdict.detail();
+    assert!(
+        said.ends_with("false for v < 0 or v > 0, and not decided at v = 0"),
+        "{said}"
+    );
     assert_eq!(case.said("stability.asymptotic", "driving"), "refuted");
 }
 

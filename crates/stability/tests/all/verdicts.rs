@@ -373,7 +373,7 @@ be = 0
     let critical = kane.verdict("stability.critical", "n");
     assert_eq!(
         critical.detail(),
-        "the stability of spinning changes at n in {0} (with all eigenvalues on the axis or left of it there alone, unstable on both sides)"
+        "the spectral stability of spinning changes at n in {0} (with all eigenvalues on the axis or left of it there alone, unstable on both sides)"
     );
     let other = stone([
         "0.1",

@@ -107,6 +107,13 @@ impl Followed {
         );
         let what = match special.kind {
             Kind::Fold => format!("fold: the curve turns back, {first}"),
+            Kind::Pitchfork => {
+                "branch point: the curve turns back where another one crosses it, as at a pitchfork"
+                    .into()
+            }
+            Kind::Infinity => {
+                "an eigenvalue goes to infinity and comes back from its other side".into()
+            }
             Kind::BranchPoint => format!("branch point: {first}, and the curve goes on"),
             Kind::Hopf {
                 frequency,
@@ -244,6 +251,9 @@ impl Followed {
 
 /// A Hopf point with what is born there.
 pub(crate) fn hopf(frequency: f64, coefficient: f64) -> String {
+    if coefficient == 0.0 {
+        return format!("Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; the first Lyapunov coefficient vanishes to rounding, and decides nothing of orbits");
+    }
     let kind = if coefficient < 0.0 {
         "supercritical"
     } else {
@@ -256,6 +266,8 @@ fn word(kind: Kind) -> &'static str {
     match kind {
         Kind::Fold => "fold",
         Kind::BranchPoint => "branch point",
+        Kind::Pitchfork => "pitchfork",
+        Kind::Infinity => "infinity",
         Kind::Hopf { .. } => "Hopf",
         Kind::PeriodDoubling => "period doubling",
         Kind::Torus { .. } => "torus",

@@ -3,6 +3,7 @@
 use super::{named_parts, Numbers, Stability};
 use crate::state_space::{latex, Matrices};
 use chetaev_stability::descriptor::Descriptor;
+use chetaev_stability::hurwitz::Region;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::question::Place;
 use chetaev_symbolic::{Expr, Rational};
@@ -152,15 +153,21 @@ impl Stability {
             value["regions"] = match &self.ranges {
                 None => Value::Null,
                 Some(ranges) => {
-                    let region = |r: &chetaev_stability::hurwitz::Region| {
+                    let region = |(r, is_absent): (&Region, &bool)| {
                         let place = match self.question.place(r.is_left) {
+                            _ if *is_absent => "no motion",
                             Place::Left => "asymptotic",
                             Place::OnAxis => "spectral",
                             Place::Right | Place::NotLeft => "unstable",
                         };
                         json!({"from": r.low.to_f64().value(), "to": r.high.to_f64().value(), "stability": place})
                     };
-                    ranges.regions.iter().map(region).collect()
+                    ranges
+                        .regions
+                        .iter()
+                        .zip(&self.absent)
+                        .map(region)
+                        .collect()
                 }
             };
             let table = self.table(range).into_iter();

@@ -97,8 +97,9 @@ impl Stability {
             y: (least - margin, most + margin),
         };
         let mut inside = String::new();
-        for region in self.ranges.iter().flat_map(|own| &own.regions) {
-            if self.question.place(region.is_left) == Place::Right {
+        let regions = self.ranges.iter().flat_map(|own| &own.regions);
+        for (region, is_absent) in regions.zip(&self.absent) {
+            if *is_absent || self.question.place(region.is_left) == Place::Right {
                 continue;
             }
             let (a, above) = axes.at(region.low.to_f64().value().max(low), axes.y.1);

@@ -3,6 +3,7 @@
 use super::{named_parts, Mode, Numbers, Stability};
 use chetaev_mechanics::system::Parameter;
 use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
+use chetaev_stability::eigenvalues::unreached;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::multiplicity::defects;
 use chetaev_stability::question::Place;
@@ -79,6 +80,9 @@ impl Stability {
                 text,
                 "\nThe inputs reach {reached} of {n} dimensions, the outputs show {seen}"
             );
+            if reached < n {
+                text.push_str(&self.unreached_text());
+            }
         }
         for (output, row) in space
             .outputs
@@ -90,6 +94,22 @@ impl Stability {
             }
         }
         text
+    }
+
+    /// The eigenvalues whose modes no input reaches, in numbers.
+    fn unreached_text(&self) -> String {
+        let (space, at) = (&self.space, self.stated());
+        let [a, b] = [&space.a, &space.b].map(|rows| self.numbers(rows, at));
+        match unreached(&a, &b) {
+            Some(list) if !list.is_empty() => {
+                let list: Vec<String> = list.iter().map(|l| complex((l.re, l.im))).collect();
+                format!(
+                    "  the modes with the eigenvalues {} are not reached\n",
+                    list.join(", ")
+                )
+            }
+            _ => String::new(),
+        }
     }
 
     /// The equations in all variables.
@@ -282,6 +302,7 @@ impl Stability {
         let Some(range) = &self.range else {
             text.push_str(&self.polynomial_text());
             text.push_str(&self.eigenvalues_text());
+            text.push_str("\nWhat is proved of the stability of motions that the model names: `chetaev study --claims stability`; over a range of a parameter: `--over NAME=FROM:TO`.\n");
             return text;
         };
         let name = &range.name;
@@ -294,10 +315,11 @@ impl Stability {
                 );
             }
             Some(ranges) => {
-                for region in &ranges.regions {
+                for (region, is_absent) in ranges.regions.iter().zip(&self.absent) {
                     let place = match self.question.place(region.is_left) {
+                        _ if *is_absent => "no such motion: what it states is not real",
                         Place::Left => "stable: all eigenvalues but the zeros of the family are left of the axis",
-                        Place::OnAxis => "all eigenvalues on the axis and simple: linear motions stay bounded",
+                        Place::OnAxis => self.on_axis(),
                         Place::Right | Place::NotLeft => "unstable: an eigenvalue is right of the axis",
                     };
                     let _ = writeln!(
@@ -332,6 +354,15 @@ impl Stability {
         text
     }
 
+    /// What is said of linear motions where no eigenvalue is right of the axis, for general values of the parameter.
+    fn on_axis(&self) -> &'static str {
+        match defects(self.graph(), &self.question, None) {
+            Some(list) if list.is_empty() => "no eigenvalue right of the axis, those on it semisimple: linear motions stay bounded",
+            Some(_) => "no eigenvalue right of the axis, but one on it has fewer eigenvectors than its multiplicity: linear motions grow as a power of the time, but perhaps at single values",
+            None => "no eigenvalue right of the axis; whether those on it are semisimple was not decided",
+        }
+    }
+
     fn crossing(&self, boundary: &Boundary) -> &'static str {
         match boundary.crossing {
             Crossing::Zero => "an eigenvalue passes through zero",
@@ -339,7 +370,7 @@ impl Stability {
             Crossing::Collision => "two pairs of eigenvalues meet",
             Crossing::Infinity => "an eigenvalue goes to infinity",
             Crossing::Touching => {
-                "two eigenvalues are opposite, and the stability is the same on both sides"
+                "two eigenvalues are opposite, the stability is the same on both sides, and nothing is said of that value alone"
             }
         }
     }

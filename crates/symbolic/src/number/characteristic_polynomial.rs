@@ -23,10 +23,7 @@ pub fn characteristic_polynomial(left: &[Vec<RBig>], right: &[Vec<RBig>]) -> Opt
     let (mut known, mut singular) = (Lifted::new(n + 1), UBig::ONE);
     let mut candidate = 1_u64 << PRIME_BITS;
     while known.modulus <= pencil.bound {
-        candidate -= 1;
-        let Some(field) = PrimeField::new(candidate) else {
-            continue;
-        };
+        let field = next_field(&mut candidate);
         match pencil.modulo(&field) {
             Some(classes) => known.add(&field, &classes)?,
             None => singular *= UBig::from(candidate),
@@ -36,9 +33,24 @@ pub fn characteristic_polynomial(left: &[Vec<RBig>], right: &[Vec<RBig>]) -> Opt
             return None;
         }
     }
-    let whole = known.centred().into_iter();
+    let whole = known.centred();
+    let field = next_field(&mut candidate);
+    if !pencil.has_value(&whole, &field) {
+        return None;
+    }
+    let whole = whole.into_iter();
     let scale = RBig::from(pencil.scale);
     Some(whole.map(|own| RBig::from(own) / &scale).collect())
+}
+
+/// The field of the next smaller prime.
+fn next_field(candidate: &mut u64) -> PrimeField {
+    loop {
+        *candidate -= 1;
+        if let Some(field) = PrimeField::new(*candidate) {
+            return field;
+        }
+    }
 }
 
 /// λE − F with integers as entries.
@@ -98,6 +110,25 @@ impl Pencil {
     }
 }
 
+impl Pencil {
+    /// Whether a polynomial has the value of the determinant at one place of a field, by elimination: a second way to what the Hessenberg
+    /// form says. Two polynomials of degree n agree at no more than n places of it.
+    fn has_value(&self, polynomial: &[IBig], field: &PrimeField) -> bool {
+        let place = field.from_integer(&IBig::from(0x9e37_79b9_7f4a_u64));
+        let entry = |(e, f): (&IBig, &IBig)| {
+            let (e, f) = (field.from_integer(e), field.from_integer(f));
+            field.sub(field.mul(place, e), f)
+        };
+        let matrix: Vec<Residue> = self.left.iter().zip(&self.right).map(entry).collect();
+        let value = polynomial.iter().rev().fold(Residue::ZERO, |sum, c| {
+            field.add(field.mul(sum, place), field.from_integer(c))
+        });
+        field
+            .sub(determinant(field, self.size, matrix), value)
+            .is_zero()
+    }
+}
+
 /// Brings a matrix to Hessenberg form by similarities.
 fn hessenberg(field: &PrimeField, a: &mut [Vec<Residue>]) {
     let n = a.len();
@@ -109,18 +140,19 @@ fn hessenberg(field: &PrimeField, a: &mut [Vec<Residue>]) {
         };
         a.swap(pivot, m);
         a.iter_mut().for_each(|row| row.swap(pivot, m));
+        // All rows are changed by the row m as it is now; the inverse of that changes the column m, and with it the row m, afterwards.
         let own = a[m].clone();
+        let mut factors = vec![Residue::ZERO; n];
         for i in m + 1..n {
-            let factor = field.mul(a[i][m - 1], reciprocal);
-            if factor.is_zero() {
-                continue;
-            }
+            factors[i] = field.mul(a[i][m - 1], reciprocal);
             for (entry, &by) in a[i].iter_mut().zip(&own) {
-                *entry = field.sub(*entry, field.mul(factor, by));
+                *entry = field.sub(*entry, field.mul(factors[i], by));
             }
-            for row in a.iter_mut() {
-                row[m] = field.add(row[m], field.mul(factor, row[i]));
-            }
+        }
+        for row in a.iter_mut() {
+            let terms = factors.iter().zip(row.iter());
+            let sum = terms.fold(row[m], |sum, (&f, &x)| field.add(sum, field.mul(f, x)));
+            row[m] = sum;
         }
     }
 }
@@ -213,6 +245,19 @@ mod tests {
         assert_eq!(found, expected);
     }
 
+    /// det(λE − F) = λ² − 5 λ − 2, and no other polynomial passes.
+    #[test]
+    fn a_wrong_polynomial_is_seen_at_a_place() {
+        let e = matrix(&[&[(1, 1), (0, 1)], &[(0, 1), (1, 1)]]);
+        let f = matrix(&[&[(1, 1), (2, 1)], &[(3, 1), (4, 1)]]);
+        let pencil = Pencil::new(&e, &f);
+        let field = next_field(&mut (1_u64 << PRIME_BITS));
+        let has = |own: [i64; 3]| pencil.has_value(&own.map(IBig::from), &field);
+        assert!(has([-2, -5, 1]));
+        assert!(!has([-2, -4, 1]));
+        assert!(!has([-1, -5, 1]));
+    }
+
     /// The companion matrix of a polynomial has it as its own, with rows and columns in any order and any scale of the rows.
     #[test]
     fn companion_matrices() {
@@ -238,6 +283,50 @@ mod tests {
         let monic: Vec<RBig> = found.into_iter().map(|c| c / &leading).collect();
         let expected: Vec<RBig> = (0..n).map(coefficient).chain([one]).collect();
         assert_eq!(monic, expected);
+    }
+
+    /// A dense matrix T D T⁻¹ with the eigenvalues in D, where T and T⁻¹ are products of triangular matrices of ones, and any regular E from
+    /// the left: det(λE − E T D T⁻¹) = det E ∏(λ − d).
+    #[test]
+    fn dense_matrices_with_known_eigenvalues() {
+        for n in 1..9 {
+            let number = |x: i64| ratio(x, 1).unwrap();
+            let product = |a: &[Vec<RBig>], b: &[Vec<RBig>]| -> Vec<Vec<RBig>> {
+                let entry =
+                    |i: usize, j: usize| (0..n).fold(number(0), |sum, k| sum + &a[i][k] * &b[k][j]);
+                let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
+                (0..n).map(row).collect()
+            };
+            let made = |entry: &dyn Fn(usize, usize) -> i64| -> Vec<Vec<RBig>> {
+                let row = |i: usize| (0..n).map(|j| number(entry(i, j))).collect();
+                (0..n).map(row).collect()
+            };
+            let lower = made(&|i, j| i64::from(i >= j));
+            let upper = made(&|i, j| i64::from(i <= j));
+            let back_lower = made(&|i, j| i64::from(i == j) - i64::from(i == j + 1));
+            let back_upper = made(&|i, j| i64::from(i == j) - i64::from(i + 1 == j));
+            let own = |i: usize| [2, -1, 3, 0, 3, -7, 5, 1][i];
+            let diagonal = made(&|i, j| if i == j { own(i) } else { 0 });
+            let there = product(&lower, &upper);
+            let back = product(&back_upper, &back_lower);
+            let dense = product(&product(&there, &diagonal), &back);
+            let left = made(&|i, j| {
+                if i == j {
+                    3
+                } else {
+                    i64::from(i < j) * (j as i64)
+                }
+            });
+            let found = characteristic_polynomial(&left, &product(&left, &dense)).unwrap();
+            let mut expected = vec![number(3_i64.pow(n as u32))];
+            for i in 0..n {
+                let times_root = expected.iter().map(|c| -c * number(own(i)));
+                let times_root: Vec<RBig> = times_root.chain([number(0)]).collect();
+                let shifted = std::iter::once(number(0)).chain(expected);
+                expected = shifted.zip(times_root).map(|(a, b)| a + b).collect();
+            }
+            assert_eq!(found, expected, "{n}");
+        }
     }
 
     #[test]

@@ -1,0 +1,145 @@
+//! Steady motions where the speeds of one choice do not serve: another choice of independent velocities sees them.
+//!
+//! Independent velocities are coordinates of the directions that the constraints allow; where a minor of the gradients of the constraints vanishes the
+//! velocities by them have poles. Each choice is a chart, and the motions of all charts together are all motions.
+
+use crate::real_roots::sign_of;
+use crate::steady::closed;
+use crate::steady_motions::{Found, SteadySet};
+use crate::steady_value::{precision, Value};
+use chetaev_mechanics::system::Relation;
+use chetaev_mechanics::{Selection, System};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::{Expr, Graph};
+use std::cmp::Ordering;
+
+/// More choices are not tried.
+const CHARTS: usize = 6;
+
+/// The other choices of dependent velocities.
+pub(crate) fn other_charts(selection: &Selection, choices: Vec<Vec<usize>>) -> Vec<Selection> {
+    let others = choices
+        .into_iter()
+        .filter(|own| *own != selection.dependent);
+    let chart = |dependent: Vec<usize>| Selection {
+        rows: selection.rows.clone(),
+        dependent,
+    };
+    others.map(chart).take(CHARTS).collect()
+}
+
+/// A set of motions with those of another chart where its own equations are not defined.
+pub(crate) fn union(system: &System, own: &mut SteadySet, other: &SteadySet) {
+    let g = &system.graph;
+    let unseen = other.found.iter().filter_map(|found| {
+        let at = values_along(system, found)?;
+        let vanishes = |&e: &Expr| {
+            let value = closed(g, g.substitute(e, &along(system, own, &at)));
+            g.is_zero(value)
+        };
+        let is_seen = !own.excluded.iter().any(vanishes);
+        (!is_seen).then(|| in_variables(system, own, found, &at))?
+    });
+    let unseen: Vec<Found> = unseen.collect();
+    own.found.extend(unseen);
+    // Nothing is said where a function of each chart vanishes.
+    let mut both = Vec::new();
+    for &a in &own.excluded {
+        for &b in &other.excluded {
+            let own = if a == b {
+                a
+            } else {
+                g.add(&[g.powi(a, 2), g.powi(b, 2)])
+            };
+            if !both.contains(&own) {
+                both.push(own);
+            }
+        }
+    }
+    own.excluded = both;
+}
+
+/// Positions and velocities of a motion.
+fn values_along(system: &System, found: &Found) -> Option<Vec<(Expr, Expr)>> {
+    let motion = found.motion.as_ref()?;
+    let coordinates = system.coordinates.iter();
+    let positions = coordinates.clone().map(|c| c.q).zip(&motion.positions);
+    let velocities = coordinates.map(|c| c.v).zip(&motion.velocities);
+    let all = positions.chain(velocities);
+    Some(all.filter_map(|(e, value)| Some((e, (*value)?))).collect())
+}
+
+/// The same with the speeds of a set.
+fn along(system: &System, own: &SteadySet, at: &[(Expr, Expr)]) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let speeds = own.speeds.iter().map(|(name, definition)| {
+        let value = closed(g, g.substitute(*definition, at));
+        (g.symbol(name, 0), value)
+    });
+    at.iter().copied().chain(speeds).collect()
+}
+
+/// A motion of another chart in the variables of a set.
+fn in_variables(
+    system: &System,
+    own: &SteadySet,
+    found: &Found,
+    at: &[(Expr, Expr)],
+) -> Option<Found> {
+    let g = &system.graph;
+    let all = own.variables.iter().map(|name| -> Option<Value> {
+        let coordinate = system.coordinates.iter().find(|c| c.name == *name);
+        let speed = || own.speeds.iter().find(|(speed, _)| speed == name);
+        let e = coordinate
+            .map(|c| c.q)
+            .or_else(|| speed().map(|own| own.1))?;
+        let value = closed(g, g.substitute(e, at));
+        if !found.free.is_empty() {
+            return Some(Value::Function(value));
+        }
+        let ball = g.enclose(&[value], &precision(), &|_| None).ok()?.pop()?;
+        Some(Value::Number {
+            exact: Some(value),
+            ball,
+        })
+    });
+    let values: Vec<Value> = all.collect::<Option<_>>()?;
+    let free = found.free.iter().map(|&(symbol, _)| {
+        let is_own = |value: &Value| matches!(value, Value::Function(e) if *e == symbol);
+        Some((symbol, values.iter().position(is_own)?))
+    });
+    Some(Found {
+        free: free.collect::<Option<_>>()?,
+        values,
+        ..found.clone()
+    })
+}
+
+/// Whether a matrix is singular at these values of unknowns and of parameters.
+pub(crate) fn is_singular_at(g: &Graph, rows: &[Vec<Expr>], lists: [&[(Expr, Expr)]; 2]) -> bool {
+    let [unknowns, values] = lists;
+    let put = |&e: &Expr| closed(g, g.substitute(g.substitute(e, unknowns), values));
+    let rows: Vec<Vec<Expr>> = rows
+        .iter()
+        .map(|row| row.iter().map(put).collect())
+        .collect();
+    !rows.is_empty() && g.is_zero(closed(g, determinant(g, &rows)))
+}
+
+/// Whether nothing that the model assumes is proved not to hold along a motion.
+pub(crate) fn is_assumed(system: &System, found: &Found, values: &[(Expr, Expr)]) -> bool {
+    let g = &system.graph;
+    let at = values_along(system, found).unwrap_or_default();
+    let fails = |sign: Ordering, relation: Relation| match relation {
+        Relation::Less => sign != Ordering::Less,
+        Relation::LessOrEqual => sign == Ordering::Greater,
+        Relation::NotEqual => sign == Ordering::Equal,
+    };
+    let mut all = system.assumptions.iter();
+    !all.any(|own| {
+        let e = g.substitute(g.sub(own.left, own.right), &at);
+        let e = closed(g, g.substitute(e, values));
+        let is_number = g.symbols_in(&[e]).is_empty();
+        is_number && sign_of(g, e).is_some_and(|sign| fails(sign, own.relation))
+    })
+}

@@ -1,0 +1,276 @@
+//! Verdicts over all values of a parameter where single values, large ones, or those without a motion make the difference; the expected values are
+//! read off equations of one or two oscillators.
+#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+use crate::common::Case;
+use chetaev_stability::eigenvalues::{eigenvalues, unreached};
+use chetaev_symbolic::Verdict;
+
+/// One oscillator at rest at x = 0, over p.
+fn oscillator(value: &str, energy: &str, force: &str) -> Case {
+    Case::new(&format!(
+        r#"
+coordinates = ["x"]
+parameters = {{ p = {value} }}
+[lagrangian]
+{energy}
+[forces]
+x = "{force}"
+[steady.s]
+x = 0
+"x'" = 0
+over = "p"
+"#
+    ))
+}
+
+/// x'' = p² x' − x − x'⁵ is unstable for all p but zero, where it is damped and nothing here says so.
+#[test]
+fn a_single_value_is_not_swept_away() {
+    let case = oscillator("0.5", "L = \"1/2 x'^2 - 1/2 x^2\"", "p^2 x' - x'^5");
+    let verdict = case.verdict("stability.nonlinear", "s");
+    assert_eq!(verdict.word(), "refuted");
+    let said = verdict.detail();
+    assert!(
+        said.ends_with("false for p < 0 or p > 0, and not decided at p = 0"),
+        "{said}"
+    );
+    assert_eq!(case.said("stability.linear", "s"), "p = 0");
+}
+
+/// x'' = −x' − (p − 10³⁰)(p − 1) x: stable outside of the interval from 1 to 10³⁰.
+#[test]
+fn values_far_apart_are_all_found() {
+    let case = oscillator("2", "L = \"1/2 x'^2 - 1/2 (p - 1e30) (p - 1) x^2\"", "-x'");
+    let said = case.said("stability.asymptotic", "s");
+    let values: Vec<f64> = said
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    assert_eq!(values.len(), 2, "{said}");
+    assert!((values[0] - 1.0).abs() < 1e-15 && (values[1] / 1e30 - 1.0).abs() < 1e-15);
+    assert!(
+        said.starts_with("p < ") && said.contains("or p > "),
+        "{said}"
+    );
+    // Beyond a single critical value too.
+    let far = oscillator("2e30", "L = \"1/2 x'^2 - 1/2 (p - 1e30) x^2\"", "0");
+    let said = far.said("stability.linear", "s");
+    assert!(said.starts_with("p > 1"), "{said}");
+}
+
+/// x'' = −(p − 1)(p − 1 − 10⁻²⁵) x' − x is unstable between two values that are close to each other.
+#[test]
+fn values_close_together_are_told_apart() {
+    let case = oscillator(
+        "1",
+        "L = \"1/2 x'^2 - 1/2 x^2\"",
+        "-(p - 1) (p - 1 - 1e-25) x'",
+    );
+    let Verdict::Conditional {
+        counterexample: Some(own),
+        ..
+    } = case.verdict("stability.spectral", "s")
+    else {
+        panic!("{:?}", case.verdict("stability.critical", "p"));
+    };
+    let at = own.point[0].exact.clone().unwrap();
+    let beyond = at - chetaev_symbolic::Rational::ONE;
+    let place = beyond.to_f64().value();
+    assert!(0.0 < place && place < 1e-25, "{place}");
+    let said = case.said("stability.spectral", "s");
+    assert!(said.contains("p >= 1.0000000000000000000000001"), "{said}");
+    let critical = case.verdict("stability.critical", "p");
+    assert_eq!(critical.detail().matches("a pair passes").count(), 2);
+}
+
+/// With x'' = −x' − p x³ the eigenvalues are 0 and −1 for all p, and the motion is stable for p ≥ 0 only: what is the same is told.
+#[test]
+fn critical_values_are_those_of_the_spectrum() {
+    let case = oscillator("1", "L = \"1/2 x'^2\"", "-x' - p x^3");
+    assert_eq!(case.said("stability.nonlinear", "s"), "p >= 0");
+    assert_eq!(
+        case.verdict("stability.critical", "p").detail(),
+        "the spectral stability of s is the same for all p"
+    );
+}
+
+/// Two oscillators of which one stands upside down: an eigenvalue of the other passes zero at p = 1, and the motion is unstable there and on
+/// both sides.
+#[test]
+fn what_happens_without_a_change_is_no_change() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+parameters = { p = 3 }
+[lagrangian]
+L = "1/2 (x'^2 + y'^2) + 1/2 x^2 - 1/2 (p - 1) y^2"
+[forces]
+x = "-x'"
+y = "-y'"
+[steady.s]
+x = 0
+y = 0
+"x'" = 0
+"y'" = 0
+over = "p"
+"#,
+    );
+    let verdict = case.verdict("stability.critical", "p");
+    let said = verdict.detail();
+    assert!(
+        said.starts_with("the spectral stability of s is the same for all p; without a change of stability an eigenvalue passes through zero, unstable on both sides and there, at p in"),
+        "{said}"
+    );
+}
+
+/// A bead on a hoop that turns: it stands aside at cos θ = 1/W², where W² ≥ 1.
+#[test]
+fn there_is_no_motion_where_it_is_not_real() {
+    let bead = |value: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["th"]
+parameters = {{ W = {value} }}
+[lagrangian]
+L = "1/2 (th'^2 + W^2 sin(th)^2) + cos(th)"
+[steady.aside]
+th = "acos(1/W^2)"
+"th'" = 0
+over = "W"
+"#
+        ))
+    };
+    let turning = bead("2");
+    assert!(matches!(
+        turning.verdict("steady.stated", "aside"),
+        Verdict::Conditional { .. }
+    ));
+    let found = turning.said("stability.nonlinear", "aside");
+    assert!(found.starts_with("W < -1 or W > 1"), "{found}");
+    let slow = bead("0.5");
+    for claim in ["steady.stated", "stability.nonlinear"] {
+        let said = slow.said(claim, "aside");
+        assert!(
+            said.starts_with("undecided: there is no motion `aside`: acos(4)"),
+            "{said}"
+        );
+    }
+}
+
+/// At tan θ = 200/981 gravity and a horizontal force balance: 981/100 sin θ = 2 cos θ.
+#[test]
+fn a_rate_that_vanishes_is_seen_to() {
+    let case = Case::new(
+        r#"
+coordinates = ["th"]
+parameters = { g = 9.81, a = 2 }
+[lagrangian]
+L = "1/2 th'^2 - g cos(th) - a sin(th)"
+[steady.tilt]
+th = "atan(a/g)"
+"th'" = 0
+"#,
+    );
+    assert_eq!(case.said("steady.stated", "tilt"), "proved");
+}
+
+/// With sin p in the place of the stiffness the values at which it vanishes are not enumerated: only the value that is stated is spoken of.
+#[test]
+fn what_is_decided_for_one_value_says_so() {
+    let case = oscillator("1", "L = \"1/2 x'^2 - 1/2 sin(p) x^2\"", "-x'");
+    assert_eq!(case.said("stability.asymptotic", "s"), "p = 1");
+}
+
+/// m y'' = −2 y − y' has one eigenvalue only where m = 0, and no acceleration.
+#[test]
+fn singular_masses_are_left_out() {
+    let case = oscillator("0.5", "L = \"1/2 p x'^2 - x^2\"", "-x'");
+    assert_eq!(case.said("stability.nonlinear", "s"), "p > 0");
+    let massless = oscillator("0", "L = \"1/2 p x'^2 - x^2\"", "-x'");
+    assert!(massless.said("stability.asymptotic", "s") == "p > 0");
+}
+
+/// Three unit masses in a chain with unit springs and dashpots: s M + D = T with K = T, T tridiagonal with 2 on the diagonal but 1 at its end, so
+/// that det(s² + (s + 1) T) has the coefficients 1, 5, 11, 13, 9, 3, 1; it is damped in all motions (Kelvin and Tait 1879).
+#[test]
+fn a_chain_of_three_masses() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y", "z"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2 + z'^2) - 1/2 (x^2 + (y - x)^2 + (z - y)^2)"
+[forces]
+x = "-x' + (y' - x')"
+y = "-(y' - x') + (z' - y')"
+z = "-(z' - y')"
+[steady.rest]
+x = 0
+y = 0
+z = 0
+"x'" = 0
+"y'" = 0
+"z'" = 0
+"#,
+    );
+    let motion = case.system.steady[0].clone();
+    let linear = case.linear(&motion, "").unwrap();
+    let g = &case.system.graph;
+    let polynomial = chetaev_stability::characteristic::Characteristic::of(g, &linear).unwrap();
+    let own: Vec<String> = polynomial.coefficients.iter().map(|&e| g.text(e)).collect();
+    // T has the characteristic polynomial t³ − 5 t² + 6 t − 1; with t = −s²/(s + 1): s⁶ + 5 s⁴ (s + 1) + 6 s² (s + 1)² + (s + 1)³.
+    assert_eq!(own, ["1", "3", "9", "13", "11", "5", "1"]);
+    assert_eq!(case.said("stability.asymptotic", "rest"), "proved");
+}
+
+/// Two oscillators in units that are 10⁸ times apart have the eigenvalues of the same in one unit: λ² + λ/10 + 1 twice, coupled by 1/5.
+#[test]
+fn eigenvalues_do_not_depend_on_units() {
+    let matrix = |unit: f64| {
+        vec![
+            vec![0.0, 0.0, 1.0, 0.0],
+            vec![0.0, 0.0, 0.0, 1.0],
+            vec![-1.0, -0.2 * unit, -0.1, 0.0],
+            vec![-0.2 / unit, -1.0, 0.0, -0.1],
+        ]
+    };
+    let one: Vec<Vec<f64>> = (0..4)
+        .map(|r| (0..4).map(|c| f64::from(u8::from(r == c))).collect())
+        .collect();
+    // λ² + λ/10 + 1 ± 1/5 = 0.
+    let expected = [1.2_f64, 1.2, 0.8, 0.8].map(|own| (own - 0.0025).sqrt());
+    for unit in [1.0, 1e8, 1e-12] {
+        let found = eigenvalues(&one, &matrix(unit)).unwrap();
+        let mut sizes: Vec<f64> = found.iter().map(|l| l.im.abs()).collect();
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        for (a, b) in sizes.iter().zip(expected) {
+            assert!((a - b).abs() < 1e-13, "{unit}: {found:?}");
+        }
+        assert!(
+            found.iter().all(|l| (l.re + 0.05).abs() < 1e-13),
+            "{found:?}"
+        );
+    }
+}
+
+/// Two oscillators x'' = −x + u and y'' = −4 y: the input reaches the first only, in any units.
+#[test]
+fn modes_that_no_input_reaches() {
+    for unit in [1.0, 1e6] {
+        let a = [
+            [0.0, 0.0, unit, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+            [-1.0 / unit, 0.0, 0.0, 0.0],
+            [0.0, -4.0, 0.0, 0.0],
+        ];
+        let a: Vec<Vec<f64>> = a.iter().map(|row| row.to_vec()).collect();
+        let input = |on_second: f64| -> Vec<Vec<f64>> {
+            let column = [0.0, 0.0, 1.0, on_second];
+            column.iter().map(|x| vec![*x]).collect()
+        };
+        let found = unreached(&a, &input(0.0)).unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].re.abs() < 1e-14 && (found[0].im - 2.0).abs() < 1e-14);
+        assert!(unreached(&a, &input(1.0)).unwrap().is_empty());
+    }
+}
