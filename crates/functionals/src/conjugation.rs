@@ -6,10 +6,14 @@
 //! `A'(B'(A'(e))) = A'(e)` it then cancels (R. T. Rockafellar, Convex Analysis, 1970, § 26). The gradient of a function whose Hessian
 //! is definite at every place of the whole space is one-to-one.
 
+use crate::signs::enclosure;
+use crate::smoothness::guards;
 use crate::space::Space;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{rational, Expr, Function, Node, Symbol, Verdict};
+use chetaev_symbolic::zero::assumptions::{is_implied, SignSet};
+use chetaev_symbolic::{Expr, Node, Rational, Symbol, Verdict};
+use std::cmp::Ordering;
 
 impl Space {
     /// Whether a function and its conjugate are that by their formulas, decided once; `None` where it has no conjugate, or where one of
@@ -26,10 +30,71 @@ impl Space {
             ));
         }
         self.decided_once(pair, &|| {
-            let there = self.undone(pair.0, pair.1)?;
-            let back = self.undone(pair.1, pair.0)?;
-            Some(self.both_ways(pair, &there, &back))
+            let both = (self.undone(pair.0, pair.1), self.undone(pair.1, pair.0));
+            match both {
+                (Some(there), Some(back)) => Some(self.both_ways(pair, &there, &back)),
+                _ => self.folded(pair.0).or_else(|| self.folded(pair.1)),
+            }
         })
+    }
+
+    /// That a function has no conjugate since its gradient is not one-to-one: the determinant of its Hessian has both signs. By the
+    /// invariance of domain (L. E. J. Brouwer, 1912) a continuous map of a connected open set of `R^n` into `R^n` that is one-to-one is of
+    /// one degree everywhere, so that its determinant has no two signs. Where fields are confined by assumptions nothing is said.
+    fn folded(&self, function: usize) -> Option<Verdict> {
+        let g = &self.graph;
+        let slots = self.slots(function);
+        let value = self.body(function, &[], &slots)?;
+        let assumed = self.assumptions();
+        let mut all = assumed.list().iter();
+        let confines_fields = all.any(|own| !self.jets_in(&[own.left, own.right]).is_empty());
+        if confines_fields || !self.is_smooth_everywhere(value) {
+            return None;
+        }
+        let hessian = self.hessian(function)?;
+        let mut known: Vec<(Vec<Expr>, Expr)> = Vec::new();
+        for point in probes(slots.len()) {
+            let point: Vec<Expr> = point.into_iter().map(|own| g.number(own)).collect();
+            let rows: Vec<Vec<Expr>> = hessian
+                .iter()
+                .map(|row| {
+                    row.iter()
+                        .map(|&e| self.at_arguments(function, e, &point))
+                        .collect()
+                })
+                .collect();
+            let here = determinant(g, &rows);
+            let is_opposite = |there: Expr| {
+                let product = g.mul(&[here, there]);
+                let enclosed = enclosure(self, product).and_then(|own| own.sign());
+                enclosed == Some(Ordering::Less) || self.sign(product) == SignSet::NEGATIVE
+            };
+            if let Some((other, _)) = known.iter().find(|(_, there)| is_opposite(*there)) {
+                return Some(self.without_inverse(function, other, &point));
+            }
+            known.push((point, here));
+        }
+        None
+    }
+
+    fn without_inverse(&self, function: usize, one: &[Expr], other: &[Expr]) -> Verdict {
+        let name = self.function_at(function).name;
+        let shown = |point: &[Expr]| {
+            let all: Vec<String> = point.iter().map(|&e| self.graph.text(e)).collect();
+            match all.as_slice() {
+                [single] => single.clone(),
+                all => format!("({})", all.join(", ")),
+            }
+        };
+        Verdict::not_applicable(
+            "functional.legendre",
+            format!(
+                "the determinant of the Hessian of `{name}` has opposite signs at {} and {}: its gradient is not one-to-one, so that \
+                 `{name}` has no conjugate for all arguments",
+                shown(one),
+                shown(other)
+            ),
+        )
     }
 
     /// The conjugate that undoes the gradient of a function: where that is assumed, or proved.
@@ -100,6 +165,16 @@ impl Space {
         }
         let at_zero: Vec<(Expr, Expr)> = slots.iter().map(|&s| (s, g.zero())).collect();
         let rest = g.substitute_all(gradient, &at_zero);
+        // A sign is constant beside its jumps: that the gradient is linear is proved of the whole.
+        let whole = matrix.chunks(slots.len()).zip(gradient).zip(&rest);
+        let is_linear = whole.into_iter().all(|((row, &e), &rest)| {
+            let linear = row.iter().zip(&slots).map(|(&a, &x)| g.mul(&[a, x]));
+            let linear: Vec<Expr> = linear.chain([rest]).collect();
+            self.vanish(&[g.sub(e, g.add(&linear))])
+        });
+        if !is_linear {
+            return None;
+        }
         // The place-holders stand for the argument of the conjugate now.
         let right: Vec<Expr> = slots.iter().zip(rest).map(|(&s, r)| g.sub(s, r)).collect();
         Some((determinant, g.solve(&matrix, &right).ok()))
@@ -242,13 +317,7 @@ impl Space {
         if !is_smooth {
             return false;
         }
-        // Rows and columns of the derivatives by a tensor are scaled against those by its unknowns, which no sign of a minor tells.
-        let row = |k: usize| -> Option<Vec<Expr>> {
-            (0..slots.len())
-                .map(|l| self.body(function, &[k, l], &slots))
-                .collect()
-        };
-        let Some(hessian) = (0..slots.len()).map(row).collect::<Option<Vec<_>>>() else {
+        let Some(hessian) = self.hessian(function) else {
             return false;
         };
         let is_positive = |factor: i64| {
@@ -266,55 +335,63 @@ impl Space {
         is_positive(1) || is_positive(-1)
     }
 
+    /// The second derivatives of a function with a formula. Rows and columns of the derivatives by a tensor are scaled against those by
+    /// its unknowns, which no sign of a minor tells.
+    fn hessian(&self, function: usize) -> Option<Vec<Vec<Expr>>> {
+        let slots = self.slots(function);
+        let row = |k: usize| -> Option<Vec<Expr>> {
+            (0..slots.len())
+                .map(|l| self.body(function, &[k, l], &slots))
+                .collect()
+        };
+        (0..slots.len()).map(row).collect()
+    }
+
     /// Whether an expression is defined and smooth for all real values of its symbols, as far as its structure tells.
     fn is_smooth_everywhere(&self, e: Expr) -> bool {
         let g = &self.graph;
-        let mut open = vec![e];
-        while let Some(e) = open.pop() {
-            let is_smooth = match g.node(e) {
-                Node::Number(_) | Node::Pi => true,
-                Node::Symbol(symbol) => !self.is_application(*symbol),
-                Node::Sum { terms, .. } => {
-                    open.extend(terms.iter().map(|(term, _)| *term));
-                    true
-                }
-                Node::Product { factors, .. } => {
-                    open.extend(factors.iter().copied());
-                    true
-                }
-                Node::Power { base, exponent } => {
-                    open.extend([*base, *exponent]);
-                    let power = g.as_number(*exponent).and_then(rational::to_i64);
-                    power.is_some_and(|n| n >= 0) || self.sign(*base).is_positive()
-                }
-                Node::Apply {
-                    function,
-                    arguments,
-                } => {
-                    open.extend(arguments.iter().copied());
-                    is_smooth_function(*function)
-                }
-                _ => false,
-            };
-            if !is_smooth {
-                return false;
+        let is_known = |e: Expr| match g.node(e) {
+            Node::Symbol(symbol) => !self.is_application(*symbol),
+            Node::Number(_) | Node::Pi => true,
+            Node::Sum { .. } | Node::Product { .. } | Node::Power { .. } | Node::Apply { .. } => {
+                true
             }
-        }
-        true
+            _ => false,
+        };
+        let mut all = guards(g, e).into_iter();
+        g.reachable(&[e]).into_iter().all(is_known)
+            && all.all(|(inner, relation)| is_implied(relation, self.sign(inner)))
     }
 }
 
-/// Whether a function is defined and smooth on the whole line.
-fn is_smooth_function(function: Function) -> bool {
-    matches!(
-        function,
-        Function::Sin
-            | Function::Cos
-            | Function::Atan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asinh
-            | Function::Exp
-    )
+/// How far from the origin signs are looked at: numerators and denominators.
+const SIZES: [(i64, i64); 10] = [
+    (1, 1),
+    (-1, 1),
+    (1, 2),
+    (-1, 2),
+    (4, 1),
+    (-4, 1),
+    (30, 1),
+    (-30, 1),
+    (1000, 1),
+    (-1000, 1),
+];
+
+/// Points at which signs of a function of so many arguments are compared: the origin, and others on the axes and on the diagonal.
+fn probes(arguments: usize) -> Vec<Vec<Rational>> {
+    let mut found = vec![vec![Rational::ZERO; arguments]];
+    for size in SIZES {
+        let (over, under) = size;
+        let value = Rational::from(over) / Rational::from(under);
+        for k in 0..arguments {
+            let mut point = vec![Rational::ZERO; arguments];
+            point[k] = value.clone();
+            found.push(point);
+        }
+        if arguments > 1 {
+            found.push(vec![value; arguments]);
+        }
+    }
+    found
 }

@@ -39,6 +39,16 @@ pub enum Side {
     },
 }
 
+impl Side {
+    /// Whether two faces of a box meet at an edge.
+    pub fn meets(&self, other: &Side) -> bool {
+        match (self, other) {
+            (Side::Flat { axis: one, .. }, Side::Flat { axis: two, .. }) => one != two,
+            _ => false,
+        }
+    }
+}
+
 /// A piece of the boundary.
 #[derive(Clone, Debug)]
 pub struct Piece {
@@ -59,10 +69,7 @@ pub struct Piece {
 impl Piece {
     /// Whether two faces of a box meet at an edge.
     pub fn meets(&self, other: &Piece) -> bool {
-        match (&self.side, &other.side) {
-            (Side::Flat { axis: one, .. }, Side::Flat { axis: two, .. }) => one != two,
-            _ => false,
-        }
+        self.side.meets(&other.side)
     }
 }
 
@@ -309,6 +316,21 @@ pub enum Relation {
         /// Values put in.
         values: Vec<Special>,
     },
+    /// The other is not there.
+    Without(Missing),
+}
+
+/// A functional that is not defined for the values that are stated here, or that assumes what contradicts this file.
+#[derive(Debug)]
+pub struct Missing {
+    /// The claim that the relation to it is about.
+    pub claim: &'static str,
+    /// The name of the relation where it has one.
+    pub name: Option<String>,
+    /// Its file.
+    pub other: String,
+    /// What is in the way, and where.
+    pub why: String,
 }
 
 /// The density in which an imposed equation is released, with the multiplier.
@@ -369,7 +391,7 @@ pub struct Relative {
 }
 
 /// Fields that are stated to make the functional stationary.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Solution {
     /// Its name.
     pub name: String,

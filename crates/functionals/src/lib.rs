@@ -15,6 +15,7 @@
 //! * [`integral`]: exact integrals of polynomials.
 //! * [`polynomial`], [`ritz`], `ritz_base`, `linear`: polynomials with rational coefficients, Ritz's method, its base, and linear equations.
 //! * [`signs`]: the sign of a function on an interval.
+//! * `smoothness`: where densities and fields are smooth.
 //! * [`study`](mod@study): all claims about one model file.
 
 pub mod boundary;
@@ -30,6 +31,7 @@ pub mod read;
 pub mod ritz;
 mod ritz_base;
 pub mod signs;
+mod smoothness;
 pub mod space;
 pub mod study;
 pub mod tensors;

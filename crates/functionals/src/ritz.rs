@@ -32,6 +32,8 @@ pub enum RitzError {
     Box,
     /// The functional is not quadratic with polynomial coefficients.
     NotQuadratic,
+    /// One of the variables is the time.
+    Time,
     /// Data without values, or a field of the boundary.
     Unknown(String),
     /// A field is given by a condition that no polynomial of the base satisfies.
@@ -43,6 +45,7 @@ pub enum RitzError {
 impl std::fmt::Display for RitzError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            RitzError::Time => f.write_str("Ritz's method is for fields over space: one of the variables is the time"),
             RitzError::Box => f.write_str("Ritz's method needs a box, with numbers for its ends"),
             RitzError::NotQuadratic => f.write_str(
                 "Ritz's method with exact integrals needs a quadratic functional whose coefficients are polynomials with numbers",
@@ -83,6 +86,9 @@ pub fn approximation(
 ) -> Result<Approximation, RitzError> {
     let space = &*functional.space;
     let at = |e: Expr| with_values(functional, asked, e);
+    if space.coordinates.iter().any(|own| own.is_time) {
+        return Err(RitzError::Time);
+    }
     let domain = Domain::of(space, &functional.intervals, &at).ok_or(RitzError::Box)?;
     let is_flat = |(_, lower, upper): &(usize, Rational, Rational)| lower == upper;
     if domain.intervals.len() != space.coordinates.len() || domain.intervals.iter().any(is_flat) {

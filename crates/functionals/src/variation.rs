@@ -8,7 +8,7 @@
 use crate::functional::{Functional, Piece, Side};
 use crate::space::{Jet, Multi, Space};
 use chetaev_symbolic::Expr;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A variation that a density has no room for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -612,4 +612,44 @@ fn ends(
         });
     }
     found
+}
+
+/// The components whose variations act where two curved pieces meet.
+pub(crate) fn acting_at_edge(one: &OnPiece, other: &OnPiece) -> BTreeSet<usize> {
+    let both = one.slopes.iter().chain(&other.slopes);
+    both.map(|(component, _)| *component).collect()
+}
+
+/// What has to vanish for a component where two curved pieces meet with a common tangent plane: the part along it of the difference of the
+/// coefficients of the gradient of its variation on the two.
+pub(crate) fn at_edge(
+    functional: &Functional,
+    one: &OnPiece,
+    other: &OnPiece,
+    component: usize,
+) -> Vec<Expr> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let normal = space.normal();
+    if normal.len() == 1 {
+        return Vec::new();
+    }
+    let of = |on: &OnPiece| {
+        let mut own = on.slopes.iter();
+        let own = own.find(|(c, _)| *c == component).map(|(_, q)| q.clone());
+        own.unwrap_or_else(|| vec![g.zero(); space.dimensions()])
+    };
+    let q: Vec<Expr> = of(one)
+        .iter()
+        .zip(&of(other))
+        .map(|(&a, &b)| g.sub(a, b))
+        .collect();
+    let through: Vec<Expr> = normal
+        .iter()
+        .zip(&q)
+        .map(|(&n, &q)| g.mul(&[n, q]))
+        .collect();
+    let through = g.add(&through);
+    let own = normal.iter().zip(&q);
+    own.map(|(&n, &q)| g.sub(q, g.mul(&[n, through]))).collect()
 }

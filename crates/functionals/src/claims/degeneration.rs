@@ -32,10 +32,14 @@ impl Claim for Degeneration {
             Relation::Degeneration { name, .. } => Some(Some(name.clone())),
             _ => None,
         });
-        all.collect()
+        let without = cx.missing(self.id()).map(|own| own.name.clone());
+        all.chain(without).collect()
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        if let Some(verdict) = cx.not_defined(self.id(), subject) {
+            return verdict.into();
+        }
         let found = cx.problem.relations.iter().find_map(|r| match r {
             Relation::Degeneration {
                 name,

@@ -28,7 +28,8 @@ impl Claim for Descent {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let is = |r: &Relation| matches!(r, Relation::Descent { .. });
-        if cx.problem.relations.iter().any(is) {
+        let has_none = cx.missing(self.id()).next().is_some();
+        if has_none || cx.problem.relations.iter().any(is) {
             vec![cx.own()]
         } else {
             Vec::new()
@@ -36,6 +37,9 @@ impl Claim for Descent {
     }
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        if let Some(verdict) = cx.not_defined(self.id(), None) {
+            return verdict.into();
+        }
         let found = cx.problem.relations.iter().find_map(|r| match r {
             Relation::Descent {
                 own,
@@ -52,7 +56,12 @@ impl Claim for Descent {
     }
 }
 
-fn descended(functional: &Functional, above: &Functional, imposed: &[String]) -> Finding {
+/// Whether the level above with these of its equations imposed is the functional.
+pub(super) fn descended(
+    functional: &Functional,
+    above: &Functional,
+    imposed: &[String],
+) -> Finding {
     let space = &*functional.space;
     let group = |label: &String| {
         let own = above.equations.iter().find(|e| e.label == *label)?;

@@ -4,6 +4,7 @@ use super::modulo::{equations, labels, other_body, vanishing, vanishing_differen
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::Group;
 use crate::functional::{Functional, Relation, Role, Side};
+use crate::read::on_side;
 use crate::variation::euler_expression;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -29,14 +30,22 @@ impl Claim for Duality {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let is = |r: &Relation| matches!(r, Relation::Duality { .. });
-        if cx.problem.relations.iter().any(is) {
+        let has_none = cx.missing(self.id()).next().is_some();
+        if has_none || cx.problem.relations.iter().any(is) {
             vec![cx.own()]
         } else {
             Vec::new()
         }
     }
 
+    fn differentiates(&self) -> bool {
+        true
+    }
+
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        if let Some(verdict) = cx.not_defined(self.id(), None) {
+            return verdict.into();
+        }
         let found = cx.problem.relations.iter().find_map(|r| match r {
             Relation::Duality { own, other, flux } => Some((own, other, flux.as_ref())),
             _ => None,
@@ -118,7 +127,7 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
         };
         let mut terms: Vec<Expr> = through;
         terms.extend([piece.density, dual.density]);
-        let sum = g.add(&terms);
+        let sum = on_side(&functional.scope, &piece.side, g.add(&terms));
         match on_piece(functional, other, &piece.name, sum) {
             Ok((proof, note)) => {
                 if let Some(note) = note {

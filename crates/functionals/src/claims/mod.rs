@@ -10,6 +10,7 @@ mod legendre;
 mod modulo;
 mod multipliers;
 pub mod noether;
+mod on_box;
 mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
@@ -17,9 +18,10 @@ mod solution;
 mod special_values;
 
 use self::admission::Admission;
-use crate::functional::{Functional, Problem};
+use crate::functional::{Functional, Missing, Problem, Relation};
 use crate::notation::{written, Node};
 use crate::ritz::Approximation;
+use crate::smoothness::Coefficients;
 use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
 use chetaev_model::decision::Found;
@@ -104,6 +106,8 @@ pub struct Context<'p> {
     pub variation: Result<Variation, VariationError>,
     /// Which fields are admitted.
     pub admission: Admission,
+    /// How far the coefficients of its densities are smooth.
+    coefficients: Coefficients,
     /// What Ritz's method found, by degree, for the report.
     pub approximations: RefCell<Vec<Approximation>>,
 }
@@ -116,6 +120,7 @@ impl<'p> Context<'p> {
             problem,
             variation,
             admission: Admission::of(&problem.functional),
+            coefficients: Coefficients::of(&problem.functional),
             approximations: RefCell::default(),
         }
     }
@@ -123,6 +128,25 @@ impl<'p> Context<'p> {
     /// The functional.
     pub fn functional(&self) -> &'p Functional {
         &self.problem.functional
+    }
+
+    /// The relations of a claim whose other functional is not defined here.
+    fn missing<'c>(&'c self, claim: &'c str) -> impl Iterator<Item = &'c Missing> {
+        let all = self.problem.relations.iter();
+        all.filter_map(move |relation| match relation {
+            Relation::Without(missing) => (missing.claim == claim).then_some(missing),
+            _ => None,
+        })
+    }
+
+    /// The verdict on a relation whose other functional is not defined here.
+    fn not_defined(&self, claim: &str, name: Option<&str>) -> Option<Verdict> {
+        let mut all = self.missing(claim);
+        let Missing { other, why, .. } = all.find(|own| own.name.as_deref() == name)?;
+        Some(Verdict::not_applicable(
+            format!("{other} is defined for these values"),
+            format!("{other} is read with the values that are stated here, and then: {why}"),
+        ))
     }
 
     /// The subject of claims about the functional itself.
@@ -145,6 +169,10 @@ pub trait Claim: Sync {
     fn is_of_fields(&self) -> bool {
         true
     }
+    /// Whether densities are differentiated by place or integrated by parts for it, so that it speaks of smooth ones.
+    fn differentiates(&self) -> bool {
+        false
+    }
     /// Decides it.
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
 }
@@ -161,8 +189,39 @@ pub(crate) fn decided(claim: &dyn Claim, cx: &Context<'_>, subject: Option<&str>
     } else {
         verdict
     };
+    let verdict = if claim.differentiates() {
+        where_smooth(&cx.coefficients, verdict)
+    } else {
+        verdict
+    };
     let verdict = under(&cx.functional().assumptions, verdict);
     Finding { verdict, formulas }
+}
+
+/// A proof by differentiation holds where the coefficients of the densities are smooth; with a jump or a kink inside the body it is none.
+fn where_smooth(coefficients: &Coefficients, verdict: Verdict) -> Verdict {
+    match (coefficients, verdict) {
+        (Coefficients::Broken(why), Verdict::Proved(_) | Verdict::Conditional { .. }) => {
+            Verdict::not_applicable(
+                "smooth densities",
+                format!(
+                    "the density is not smooth in the body, where {why} does not hold everywhere: at such places conditions hold that \
+                     are not derived. One model for each part of the body says what holds in it"
+                ),
+            )
+        }
+        (Coefficients::Smooth(open), Verdict::Proved(mut proof)) if !open.is_empty() => {
+            let own = open.iter().map(String::as_str);
+            let new: Vec<&str> = own.filter(|own| !proof.on.contains(own)).collect();
+            if !new.is_empty() {
+                let said = format!(", where {}", new.join(" and "));
+                proof.on.push_str(&said);
+                proof.detail.push_str(&said);
+            }
+            Verdict::Proved(proof)
+        }
+        (_, verdict) => verdict,
+    }
 }
 
 /// A proof names what the model assumes.

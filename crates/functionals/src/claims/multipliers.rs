@@ -1,10 +1,12 @@
 //! `functional.multipliers`: the level above follows by Lagrange multipliers that become fields, and by the semi-inverse method.
 
+use super::descent::descended;
 use super::modulo::{equations, labels, vanishing, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Equation, Field, Functional, Relation, Release};
 use crate::notation::{parse_sides, Kind, Node};
+use crate::read::on_side;
 use crate::variation::{euler_expression, euler_with, variation, Held, Variation};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -25,7 +27,7 @@ impl Claim for Multipliers {
         "Courant's method: what is imposed, X = Φ, is released. Where X is a field of the level above, it gets a place of its own in the \
          density (`released` in [descent]); else the density stays as it is. The term λ (X − Φ) is added, in the interior or on the piece of \
          the boundary where the equation is imposed. The Euler equation of X, or the natural condition there, determines the multiplier. Put back, \
-         it gives the density of the level above. Three steps are proved: the released density is that of this functional where X = Φ; the \
+         it gives the density of the level above. First the level above with the equations imposed must be this functional (`functional.descent`). Three steps are proved then: the released density is that of this functional where X = Φ; the \
          stated multiplier, held fixed, makes the variation vanish modulo the equations that are named; the released density and the \
          multiplier's term make the density of the level above. The semi-inverse method (He 1997) builds the same density field by field: \
          to the terms of the fields before an unknown function F of the others is added, and the Euler equation of the next field \
@@ -48,6 +50,15 @@ impl Claim for Multipliers {
         let Some(equation) = own else {
             return Verdict::undecided("the equation that is imposed is not stated").into();
         };
+        let again = descended(functional, above, imposed).verdict;
+        if !matches!(again, Verdict::Proved(_)) {
+            let what = format!(
+                "imposing {} on {} was not shown to give this functional",
+                labels(imposed),
+                above.name
+            );
+            return again.prefixed(&what).into();
+        }
         let way = Way {
             functional,
             above,
@@ -214,7 +225,7 @@ impl Way<'_> {
             let said = format!("one of the functionals has no piece {name}");
             return Err(Box::new(Verdict::undecided(said)));
         };
-        let term = self.term()?;
+        let term = on_side(&self.above.scope, &above.side, self.term()?);
         let caption = format!("1. ({}) is released on {name}", self.equation.label);
         let released = Formula::new(caption, own.density);
         formulas.push(match &own.tree {

@@ -38,6 +38,10 @@ impl Claim for Noether {
         all.into_iter().map(|own| Some(own.name)).collect()
     }
 
+    fn differentiates(&self) -> bool {
+        true
+    }
+
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let all = generators(cx.functional());
         let own = all

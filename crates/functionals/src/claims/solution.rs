@@ -1,17 +1,19 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
+use super::on_box::on_box;
 use super::reduction::{reduced, restricted};
 use super::special_values::{put_in, unfit, where_settled};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
 use crate::read::on_side;
+use crate::smoothness::{guards, Guard, Region};
 use crate::space::Space;
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Assumptions, Relation};
+use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions, Relation};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Symbol, Verdict};
+use chetaev_symbolic::{rational, Expr, Symbol, Verdict};
 
 /// `functional.solution#NAME`.
 pub(super) struct Stated;
@@ -31,7 +33,9 @@ impl Claim for Stated {
     fn explanation(&self) -> &'static str {
         "A section [solutions.NAME] states fields in closed form, data, parameters and constitutive functions on a box, and where the \
          pieces of the boundary lie. They are put into what is imposed, into every Euler equation and every natural condition, \
-         which must vanish identically. In one dimension the functional itself is then varied, without its Euler equations: every admissible \
+         which must vanish identically. The fields, and the densities at them, have to be smooth on the whole box with its boundary: where \
+         that is not shown, the claim is undecided. A piece without a shape is the faces that are stated for it, with the conditions where \
+         two of them meet. In one dimension the functional itself is then varied, without its Euler equations: every admissible \
          variation by polynomials up to the third degree must leave it unchanged to the first order. Admissible are variations that keep what is \
          imposed; how many there are is said, as for some functionals there are none. The value is integrated exactly."
     }
@@ -49,16 +53,12 @@ impl Claim for Stated {
                 if let Some(unfit) = unfit(cx.functional(), &own.values) {
                     return unfit.into();
                 }
-                let inserted = Inserted {
-                    functional: cx.functional(),
-                    solution: own,
-                };
-                let reduced = reduced(cx.functional());
-                match crate::variation::variation(&reduced) {
-                    Ok(own) if restricted(&reduced, &own).is_none() => {
-                        inserted.verdict(&own).into()
-                    }
-                    _ => inserted.verdict(variation).into(),
+                match on_box(cx.functional(), own) {
+                    Some((functional, own)) => match crate::variation::variation(&functional) {
+                        Ok(variation) => Inserted::decided(&functional, &own, &variation).into(),
+                        Err(problem) => Verdict::undecided(problem.to_string()).into(),
+                    },
+                    None => Inserted::decided(cx.functional(), own, variation).into(),
                 }
             }
             (None, _) => Verdict::undecided("there is no such solution").into(),
@@ -87,7 +87,23 @@ struct Inserted<'f> {
     solution: &'f Solution,
 }
 
-impl Inserted<'_> {
+impl<'f> Inserted<'f> {
+    fn decided(
+        functional: &'f Functional,
+        solution: &'f Solution,
+        variation: &Variation,
+    ) -> Verdict {
+        let inserted = Inserted {
+            functional,
+            solution,
+        };
+        let reduced = reduced(functional);
+        match crate::variation::variation(&reduced) {
+            Ok(own) if restricted(&reduced, &own).is_none() => inserted.verdict(&own),
+            _ => inserted.verdict(variation),
+        }
+    }
+
     fn verdict(&self, variation: &Variation) -> Verdict {
         let space = &*self.functional.space;
         if let Some(piece) = self.unplaced(variation) {
@@ -178,34 +194,45 @@ impl Inserted<'_> {
         Some(format!("{left} {} {right}", own.relation.symbol()))
     }
 
-    /// A stated field that may not be smooth on the body, and where: at zeros of what is under a root, a logarithm, an absolute value, or
-    /// of a denominator.
+    /// What may not be smooth on the body, its boundary included: a stated field, or a density at the stated fields; and why.
     fn rough(&self) -> Option<(String, String)> {
         let space = &*self.functional.space;
         let g = &space.graph;
-        let inside = self.inside();
-        let is_of_place = |e: Expr| {
-            let symbols = g.symbols_in(&[e]);
-            let mut all = space.coordinates.iter();
-            all.any(|c| g.as_symbol(c.expr).is_some_and(|s| symbols.contains(&s)))
+        let region = Region::new(space, self.solution.intervals.clone(), true);
+        let shown = |(inner, wanted): Guard| {
+            let is_open = region.holds((inner, wanted)) != Some(true);
+            is_open.then(|| {
+                format!(
+                    "{} {} 0 was not shown there",
+                    g.text(inner),
+                    wanted.symbol()
+                )
+            })
         };
         for (field, value) in self.pairs() {
-            for e in g.reachable(&[value]) {
-                let Some((inner, wanted)) = smooth_where(g, e).filter(|own| is_of_place(own.0))
-                else {
-                    continue;
-                };
-                if !is_implied(wanted, known_sign(g, inner, &inside)) {
-                    let what = format!("{} = {}", g.text(field), g.text(value));
-                    let wanted = wanted.symbol();
-                    return Some((
-                        what,
-                        format!("{} {wanted} 0 was not shown there", g.text(inner)),
-                    ));
-                }
+            let mut own = guards(g, value)
+                .into_iter()
+                .filter(|own| space.is_of_place(&[own.0]));
+            if let Some(why) = own.find_map(shown) {
+                return Some((format!("{} = {}", g.text(field), g.text(value)), why));
             }
         }
-        None
+        // What stands in a guard is put in after it was found: |u| is no kink of 0 only after u = 0 is.
+        let is_of_fields =
+            |own: &Guard| !space.jets_in(&[own.0]).is_empty() || space.is_of_place(&[own.0]);
+        let inside = guards(g, space.explicit(self.functional.density)).into_iter();
+        let inside = inside
+            .filter(is_of_fields)
+            .map(|own| (self.at(own.0), own.1));
+        let on_pieces = self.functional.pieces.iter().flat_map(|piece| {
+            let own = guards(g, space.explicit(piece.density)).into_iter();
+            own.filter(is_of_fields).flat_map(|(inner, wanted)| {
+                let on = self.on(&piece.name, inner).into_iter();
+                on.map(move |e| (e, wanted))
+            })
+        });
+        let why = inside.chain(on_pieces).find_map(shown)?;
+        Some(("a density at the stated fields".to_owned(), why))
     }
 
     /// The stated values put in; fields with their derivatives.
@@ -533,26 +560,13 @@ impl Inserted<'_> {
     }
 }
 
-/// What has to be so that a node is defined and smooth: an expression compared with zero.
-fn smooth_where(g: &Graph, e: Expr) -> Option<(Expr, Relation)> {
-    match g.node(e) {
-        Node::Power { base, exponent } => match g.as_number(*exponent).and_then(rational::to_i64) {
-            None => Some((*base, Relation::Greater)),
-            Some(n) => (n < 0).then_some((*base, Relation::NotEqual)),
-        },
-        Node::Apply {
-            function,
-            arguments,
-        } => {
-            let inner = *arguments.first()?;
-            match function {
-                Function::Abs | Function::Sign => Some((inner, Relation::NotEqual)),
-                Function::Log => Some((inner, Relation::Greater)),
-                _ => None,
-            }
-        }
-        _ => None,
-    }
+/// What may not be smooth on the body at a solution, and why.
+pub(super) fn rough(functional: &Functional, solution: &Solution) -> Option<(String, String)> {
+    let inserted = Inserted {
+        functional,
+        solution,
+    };
+    inserted.rough()
 }
 
 /// A basis of the solutions of linear homogeneous equations with constant coefficients.

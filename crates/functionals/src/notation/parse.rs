@@ -331,6 +331,17 @@ impl<'a> Reader<'a> {
         if let Some(axis) = self.names.coordinate(&normalized(&text)) {
             return Some(vec![Index::Place(axis)]);
         }
+        match &self.readings(&text)[..] {
+            [] => {}
+            [one] => return Some(one.iter().map(|&axis| Index::Place(axis)).collect()),
+            _ => {
+                let message = format!("the derivative by `{text}` has two readings");
+                return self.fail(
+                    Diagnostic::error("bad-index", span, message)
+                        .hint("put each derivative into parentheses of its own: (u,a),b"),
+                );
+            }
+        }
         let mut found = Vec::new();
         for letter in text.chars() {
             let own = normalized(&letter.to_string());
@@ -342,7 +353,37 @@ impl<'a> Reader<'a> {
         Some(found)
     }
 
+    /// By which coordinates is differentiated where a text is nothing but their names one after the other: each way to read it, ascending.
+    fn readings(&self, text: &str) -> Vec<Vec<usize>> {
+        if text.is_empty() {
+            return vec![Vec::new()];
+        }
+        let mut found: Vec<Vec<usize>> = Vec::new();
+        let ends = text.char_indices().map(|(at, c)| at + c.len_utf8());
+        for end in ends {
+            let (head, rest) = text.split_at(end);
+            let Some(axis) = self.names.coordinate(&normalized(head)) else {
+                continue;
+            };
+            for mut own in self.readings(rest) {
+                own.push(axis);
+                own.sort_unstable();
+                if !found.contains(&own) {
+                    found.push(own);
+                }
+            }
+        }
+        found
+    }
+
     fn index(&mut self, letter: char, span: Span) -> Option<Index> {
+        if self.names.coordinate(&letter.to_string()).is_some() {
+            let message = format!("`{letter}` is a coordinate, and no index");
+            return self.fail(
+                Diagnostic::error("bad-index", span, message)
+                    .hint(format!("a derivative stands behind a comma: u,{letter}")),
+            );
+        }
         let dimensions = self.names.dimensions();
         if let Some(digit) = letter.to_digit(10) {
             let place = digit as usize;
@@ -610,6 +651,9 @@ impl<'a> Reader<'a> {
                 };
                 let example: String = "ijkl".chars().take(rank).collect();
                 let hint = match rank {
+                    0 if self.names.coordinate(letters).is_some() => {
+                        format!("a derivative stands behind a comma: {name},{letters}")
+                    }
                     0 => format!("write {name}"),
                     _ => format!("write {name}_{example}"),
                 };

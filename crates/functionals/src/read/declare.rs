@@ -90,6 +90,16 @@ impl Reader<'_> {
                 return None;
             }
         }
+        let names: Vec<&str> = found.iter().map(|(name, ..)| name.as_str()).collect();
+        if let Some(at) = (0..names.len()).find(|&at| is_made_of(names[at], names[at], &names)) {
+            let place = texts.get(at).map_or(raw.place, |text| text.place);
+            let message = format!(
+                "`{}` is made of the names of other coordinates: derivatives by it would have two readings",
+                names[at]
+            );
+            self.push(Diagnostic::error("bad-name", place, message).hint("choose another name"));
+            return None;
+        }
         if found.is_empty() || found.len() as i64 > MOST_DIMENSIONS {
             let message = format!(
                 "space has one to {MOST_DIMENSIONS} dimensions, not {}",
@@ -242,6 +252,10 @@ impl Reader<'_> {
             return found;
         };
         for (key, raw) in &entries.entries {
+            if let Some(own) = raw.table() {
+                let known = ["kind", "description", "on"];
+                self.known_keys(own, &known, "a field or of data");
+            }
             let (kind, description) = self.described(raw, "kind");
             let on = raw.table().and_then(|table| self.optional(table, "on"));
             let shape = kind.and_then(|text| self.shape(&text));
@@ -301,6 +315,7 @@ impl Reader<'_> {
         for (key, raw) in &section.entries {
             let (value, description) = match &raw.kind {
                 Kind::Table(own) => {
+                    self.known_keys(own, &["kind", "value", "description"], "a parameter");
                     let description = self.optional(own, "description");
                     (
                         self.optional(own, "value"),
@@ -317,12 +332,15 @@ impl Reader<'_> {
                 continue;
             }
             let value = self.override_of(&key.content).or(value);
-            if let (Some(text), true) = (&value, shape != Shape::Scalar) {
+            let (value, refused) = match shape {
+                Shape::Scalar => (value, None),
+                _ => (None, value),
+            };
+            if let Some(text) = refused {
                 let message = format!("`{}` is a tensor, and has no single value", key.content);
                 self.push(Diagnostic::error("bad-value", text.place, message).hint(
                     "its components stand in formulas, or in `at` and [solutions] by their indices",
                 ));
-                continue;
             }
             // Before the name is declared: a parameter is not stated by itself.
             let value = value.and_then(|text| self.scalar(scope, &text));
@@ -417,4 +435,11 @@ pub(super) fn constants(scope: &mut Scope, name: &str, shape: Shape) {
         .map(|(indices, _)| scope.space.graph.symbol(&component_name(name, &indices), 0))
         .collect();
     place_holders(scope, name, shape, &slots);
+}
+
+/// Whether a text is made of names one after the other, other than the one.
+fn is_made_of(text: &str, one: &str, names: &[&str]) -> bool {
+    let others = names.iter().filter(|name| **name != one);
+    let mut rests = others.filter_map(|name| text.strip_prefix(name));
+    rests.any(|rest| rest.is_empty() || is_made_of(rest, one, names))
 }

@@ -11,6 +11,15 @@ use chetaev_model::{Diagnostic, Place, Text};
 use chetaev_symbolic::{Expr, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
 
+const KEYS: &[&str] = &[
+    "of",
+    "value",
+    "gradient",
+    "argument",
+    "conjugate",
+    "description",
+];
+
 impl Reader<'_> {
     pub(super) fn functions(&mut self, table: &Table, scope: &mut Scope) -> Vec<Constitutive> {
         let Some(section) = self.section(table, "functions") else {
@@ -24,6 +33,16 @@ impl Reader<'_> {
         }
         for own in &found {
             let Some(name) = &own.conjugate else { continue };
+            if let Some(wrong) = no_pair(own, &found) {
+                let place = section
+                    .get(&own.name)
+                    .map_or(Place::default(), |raw| raw.place);
+                self.push(
+                    Diagnostic::error("bad-conjugate", place, wrong)
+                        .hint("two functions are conjugates of each other: A names B, and B names A or nothing"),
+                );
+                continue;
+            }
             match scope.function_named(name) {
                 Some(other) => scope.space.conjugate(own.function, other),
                 None => {
@@ -45,6 +64,9 @@ impl Reader<'_> {
         (table, is_other): (&Table, bool),
         scope: &mut Scope,
     ) -> Option<Constitutive> {
+        if let Some(own) = raw.table() {
+            self.known_keys(own, KEYS, "a function");
+        }
         let (kind, description) = self.described(raw, "of");
         if !self.is_unknown(scope, &key.content, key.place) {
             return None;
@@ -192,6 +214,20 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// Why two functions are no pair: one is its own conjugate, or the other has another one.
+fn no_pair(own: &Constitutive, all: &[Constitutive]) -> Option<String> {
+    let name = own.conjugate.as_ref()?;
+    if *name == own.name {
+        return Some(format!("`{name}` is stated as its own conjugate"));
+    }
+    let other = all.iter().find(|other| other.name == *name)?;
+    let back = other.conjugate.as_ref().filter(|back| **back != own.name)?;
+    Some(format!(
+        "`{name}` is stated as the conjugate of `{}`, and its own is `{back}`",
+        own.name
+    ))
 }
 
 /// How a function is stated, as it is written, with what the names in it mean; nothing where it may be any.

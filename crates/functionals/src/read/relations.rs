@@ -4,7 +4,7 @@ use super::declare::{constants, place_holders, shape_of};
 use super::living::Living;
 use super::names::written_out;
 use super::Reader;
-use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
+use crate::functional::{Functional, Missing, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
 use crate::space::Space;
 use crate::tensors::Scope;
@@ -49,7 +49,33 @@ impl Reader<'_> {
         found
     }
 
-    fn other(&mut self, named: &Text, functional: &Functional) -> Option<Functional> {
+    /// The other functional of a relation; why it is not there for the values that are stated here; nothing where its
+    /// file has mistakes.
+    fn other(
+        &mut self,
+        named: &Text,
+        functional: &Functional,
+        (claim, name): (&'static str, Option<&Text>),
+    ) -> Result<Functional, Option<Missing>> {
+        let told = self.problems.len();
+        let found = self.read_other(named, functional);
+        let is_of_values =
+            |d: &Diagnostic| ["division-by-zero", "false-assumption"].contains(&d.code);
+        let new = &self.problems[told..];
+        let Some(first) = new.first().filter(|_| new.iter().all(is_of_values)) else {
+            return found.ok_or(None);
+        };
+        let why = first.message.clone();
+        self.problems.truncate(told);
+        Err(Some(Missing {
+            claim,
+            name: name.map(|own| own.content.clone()),
+            other: named.content.clone(),
+            why,
+        }))
+    }
+
+    fn read_other(&mut self, named: &Text, functional: &Functional) -> Option<Functional> {
         let path = joined(&self.text.path, &named.content);
         let text = match self.files.read(&path) {
             Ok(text) => text,
@@ -132,7 +158,10 @@ impl Reader<'_> {
         self.known_keys(section, &["with", "flux"], "[duality]");
         let with = self.required(section, "with", "[duality]")?;
         let own = self.beside(table, functional)?;
-        let other = self.other(&with, &own)?;
+        let other = match self.other(&with, &own, ("functional.duality", None)) {
+            Ok(other) => other,
+            Err(missing) => return missing.map(Relation::Without),
+        };
         let functional = &own;
         let flux = self.optional(section, "flux").and_then(|text| {
             let node = self.node(&functional.scope, &text, None)?;
@@ -159,7 +188,10 @@ impl Reader<'_> {
         );
         let from = self.required(section, "from", "[descent]")?;
         let own = self.beside(table, functional)?;
-        let other = self.other(&from, &own)?;
+        let other = match self.other(&from, &own, ("functional.descent", None)) {
+            Ok(other) => other,
+            Err(missing) => return missing.map(Relation::Without),
+        };
         let imposed = match section.get("imposing") {
             Some(raw) => self.texts(raw, "imposing"),
             None => Vec::new(),
@@ -232,7 +264,10 @@ impl Reader<'_> {
         } else {
             self.with_sizes(special, (model, functional))?
         };
-        let other = self.other(&becomes, &own)?;
+        let other = match self.other(&becomes, &own, ("functional.degeneration", Some(key))) {
+            Ok(other) => other,
+            Err(missing) => return missing.map(Relation::Without),
+        };
         let of = &own;
         for (name, raw) in rest {
             // On the right the names mean what they mean for the other functional.

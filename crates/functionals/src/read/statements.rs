@@ -111,6 +111,9 @@ impl Reader<'_> {
                 self.is_twice(head_of(key), key.place);
                 continue;
             }
+            if let Some(own) = raw.table() {
+                self.known_keys(own, &["value", "description"], "a definition");
+            }
             let (value, description) = self.described(raw, "value");
             if let Some(value) = value {
                 pending.push((key.clone(), value, description));
@@ -222,6 +225,12 @@ impl Reader<'_> {
             }
         }
         self.missing_pieces(table, scope, intervals, &declared, &found);
+        let unsaid = declared.iter().filter(|name| {
+            let mut all = found.iter();
+            !all.any(|own| own.name == name.content)
+        });
+        let unsaid: Vec<Piece> = unsaid.map(|name| nothing_on(scope, name)).collect();
+        found.extend(unsaid);
         found
     }
 
@@ -266,11 +275,10 @@ impl Reader<'_> {
                 return None;
             }
         };
-        let (tree, density) = match &text {
-            Some(text) => {
-                let (tree, density) = self.scalar_tree(scope, text)?;
-                (Some(tree), density)
-            }
+        // A piece with a mistake in its density is still a piece.
+        let own_density = text.as_ref().and_then(|text| self.scalar_tree(scope, text));
+        let (tree, density) = match own_density {
+            Some((tree, density)) => (Some(tree), density),
             None => (None, scope.space.graph.zero()),
         };
         let density = on_side(scope, &side, density);
@@ -478,7 +486,36 @@ impl Reader<'_> {
                 );
             }
         }
+        self.multiplied(table, &imposed, entries);
         found
+    }
+
+    /// A multiplier is that of an equation, and of one that is imposed.
+    fn multiplied(&mut self, table: &Table, imposed: &[Text], entries: &[(Text, Raw)]) {
+        let section = self.section(table, "multipliers");
+        for (key, _) in section.map_or(&[][..], |own| &own.entries) {
+            let label = &key.content;
+            let is_own = |text: &Text| text.content == *label;
+            let known = entries.iter().map(|(key, _)| key);
+            let diagnostic = if !known.clone().any(is_own) {
+                let message = format!("there is no equation `{label}`");
+                let unknown = Diagnostic::error("unknown-equation", key.place, message);
+                match closest(label, known.map(|text| text.content.as_str())) {
+                    Some(near) => unknown
+                        .hint(format!("did you mean `{near}`?"))
+                        .suggest(key.place, near),
+                    None => unknown.hint("[equations] states them"),
+                }
+            } else if !imposed.iter().any(is_own) {
+                let message = format!("`{label}` has a multiplier, and is not imposed");
+                Diagnostic::error("unused-multiplier", key.place, message).hint(format!(
+                    "add \"{label}\" to `imposed`, or take the multiplier out"
+                ))
+            } else {
+                continue;
+            };
+            self.push(diagnostic);
+        }
     }
 
     /// An equation is imposed, or claimed to follow, and is named once.
@@ -632,6 +669,18 @@ fn head_of(key: &Text) -> &str {
     key.content
         .rsplit_once('_')
         .map_or(key.content.as_str(), |own| own.0)
+}
+
+/// A piece of which nothing is said.
+fn nothing_on(scope: &Scope, name: &Text) -> Piece {
+    Piece {
+        name: name.content.clone(),
+        side: Side::Curved,
+        density: scope.space.graph.zero(),
+        tree: None,
+        written: "0".to_owned(),
+        fixed: Vec::new(),
+    }
 }
 
 /// What holds on a piece: on a face of a box the normal is known, and the variable across it.

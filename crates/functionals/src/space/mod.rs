@@ -332,6 +332,16 @@ impl Space {
         found
     }
 
+    /// Whether an independent variable occurs, in arguments too.
+    pub(crate) fn is_of_place(&self, es: &[Expr]) -> bool {
+        let symbols = self.symbols_in(es);
+        let mut places = self
+            .coordinates
+            .iter()
+            .filter_map(|c| self.graph.as_symbol(c.expr));
+        places.any(|place| symbols.contains(&place))
+    }
+
     /// All symbols that occur, in arguments too, without those of functions.
     pub fn symbols_in(&self, es: &[Expr]) -> BTreeSet<Symbol> {
         let mut found = BTreeSet::new();

@@ -172,3 +172,43 @@ fn what_is_known_of_one_function_is_known_of_its_conjugate() {
         "refuted"
     );
 }
+
+/// A bar with two wells: A = (e² − 1)² has A'' = 12 e² − 4, which is negative at 0 and 8 at 1, so that its stress has up to three
+/// strains, and no complementary energy undoes it. With one well, A = e⁴ + e², there is one.
+#[test]
+fn an_energy_with_two_wells_has_no_conjugate() {
+    let study = |value: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"wells\"\ndensity = \"s u,x - B(s)\"\nyields = [\"a\", \"b\"]\n\
+             [domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\ns = \"scalar\"\n[functions]\n\
+             A = {{ of = \"scalar\", value = \"{value}\", conjugate = \"B\" }}\nB = {{ of = \"scalar\", conjugate = \"A\" }}\n\
+             [boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n\
+             [equations]\na = \"s = A'(u,x)\"\nb = \"s,x = 0\"\n"
+        );
+        studied_text("p4p", &text, &[])
+    };
+    // A'' = 3 X² − 100 is negative up to 5.8; exp X − 2 has its zero at log 2; − sin X has many.
+    for value in ["(X^2 - 1)^2", "X^4/4 - 50 X^2", "exp(X) - X^2", "sin(X)"] {
+        let two = study(value);
+        let relations = said(&two, "functional.legendre");
+        assert_eq!(relations.len(), 2);
+        for (word, detail) in relations {
+            assert_eq!(word, "not-applicable", "{detail}");
+            assert!(detail.contains("opposite signs"), "{detail}");
+        }
+        for (word, detail) in said(&two, "functional.euler") {
+            assert!(
+                word == "undecided" || word == "not-applicable",
+                "{word} {detail}"
+            );
+        }
+    }
+    // X + sign X is no linear gradient, so that no conjugate is computed as if it were.
+    for (_, detail) in said(&study("X^2/2 + abs(X)"), "functional.legendre") {
+        assert!(!detail.contains("computed"), "{detail}");
+    }
+    let one = study("X^4 + X^2");
+    for (word, detail) in said(&one, "functional.euler") {
+        assert_eq!(word, "proved", "{detail}");
+    }
+}

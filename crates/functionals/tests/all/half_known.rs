@@ -43,7 +43,7 @@ fn text(name: &str, density: &str, functions: &str, further: &str) -> String {
     format!("{frame}[functions]\n{functions}\n{further}")
 }
 
-fn studied(text: &str, other: &str) -> Study {
+pub(crate) fn studied(text: &str, other: &str) -> Study {
     let loaded = load("own.toml", text, &Other(other.into()), &[]);
     let problem = loaded.problem;
     match problem {
@@ -388,6 +388,21 @@ fn what_is_wrong_is_told() {
     );
     let gradient = told(&minor.replace("k = {}", "c = { kind = \"minor\" }"));
     assert!(gradient.contains("\"elastic\""), "{gradient}");
+}
+
+/// Two files that assume opposite things have nothing to be compared for; the rest of the study stands.
+#[test]
+fn assumptions_that_contradict_each_other_are_said() {
+    let file = |assumed: &str| {
+        let own = text("own", "k A(eps)", SQUARE, "");
+        format!("assumptions = [\"{assumed}\"]\n{own}")
+    };
+    let own = format!("{}{}", file("k > 0"), becomes(""));
+    let same = studied(&own, &file("k > 0"));
+    assert!(said(&same, "functional.degeneration").starts_with("proved"));
+    let opposite = said(&studied(&own, &file("k < 0")), "functional.degeneration");
+    assert!(opposite.starts_with("not-applicable"), "{opposite}");
+    assert!(opposite.contains("`k < 0` contradicts"), "{opposite}");
 }
 
 /// Greek letters in names of fields, coordinates and definitions are their names, and pieces are called as the user calls them.

@@ -58,6 +58,18 @@ fn splits_that_split_nothing_are_not_proved() {
     }
 }
 
+/// p3pb is there for β = 1, where the level above it, which divides by 1 − β, is not: what it says for itself is said.
+#[test]
+fn a_level_above_that_is_not_there_stops_nothing() {
+    let study = studied("p3pb", &[("d", "1"), ("beta", "1")]);
+    assert_eq!(word(&study, "functional.euler"), "proved");
+    assert_eq!(word(&study, "functional.descent"), "not-applicable");
+    let of_tensor = read_text("p4p", &row_text("p4p"), &[("d", "1"), ("beta", "1")]);
+    let told = of_tensor.diagnostics.render(Style::Plain);
+    assert!(told.contains("no single value"), "{told}");
+    assert!(!told.contains("not declared"), "{told}");
+}
+
 /// A plate on a box with two free faces that meet. For ν = 1 its density is the square of Δw, and no condition is left at the corner.
 #[test]
 fn what_is_divided_by_is_said_where_it_is_needed_only() {

@@ -21,7 +21,9 @@ pub(super) fn flat(problem: &Problem) -> String {
     functional(&mut text, "", own);
     let mut known = BTreeSet::new();
     for relation in &problem.relations {
-        let other = other_of(relation);
+        let Some(other) = other_of(relation) else {
+            continue;
+        };
         if known.insert(&other.name) {
             functional(
                 &mut text,
@@ -37,11 +39,12 @@ pub(super) fn flat(problem: &Problem) -> String {
     text
 }
 
-fn other_of(relation: &Relation) -> &Functional {
+fn other_of(relation: &Relation) -> Option<&Functional> {
     match relation {
         Relation::Duality { other, .. }
         | Relation::Descent { other, .. }
-        | Relation::Degeneration { other, .. } => other,
+        | Relation::Degeneration { other, .. } => Some(other),
+        Relation::Without(_) => None,
     }
 }
 
@@ -222,7 +225,9 @@ fn equation(e: &Equation) -> (String, String) {
 
 fn relations(text: &mut String, all: &[Relation]) {
     for relation in all {
-        let other = quoted(&other_of(relation).name);
+        let Some(other) = other_of(relation).map(|other| quoted(&other.name)) else {
+            continue;
+        };
         match relation {
             Relation::Duality { flux, .. } => {
                 let flux = flux
@@ -261,6 +266,7 @@ fn relations(text: &mut String, all: &[Relation]) {
                     entries.into_iter(),
                 );
             }
+            Relation::Without(_) => {}
         }
     }
 }

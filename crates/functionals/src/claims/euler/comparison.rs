@@ -2,11 +2,11 @@
 //! and where pieces meet.
 
 use crate::elimination::{Entries, Group, Pivot, Solved};
-use crate::functional::{Equation, Functional, Piece, Role, Side};
-use crate::variation::{Condition, OnPiece, Variation};
+use crate::functional::{Equation, Functional, Piece, Role};
+use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The two systems, solved.
@@ -24,6 +24,8 @@ pub(super) struct Comparison<'f> {
     pub(super) nonzero: RefCell<BTreeSet<Expr>>,
     /// Whether a counterexample is looked for.
     pub(super) refutes: bool,
+    /// Whether the conditions where two faces meet contradict each other.
+    contradicts_at_corner: Cell<bool>,
 }
 
 /// A functional with one plane piece of boundary, and its first variation.
@@ -32,6 +34,9 @@ pub(super) struct Plane {
     pub(super) variation: Variation,
 }
 
+/// What holds on a piece of the boundary.
+pub(super) type AtEnd<'a, 'f> = dyn Fn(&OnPiece, &Piece) -> Solved<'f> + 'a;
+
 /// An equation that was compared.
 pub(super) struct Judged {
     pub(super) what: String,
@@ -39,7 +44,7 @@ pub(super) struct Judged {
     /// What could not be solved for.
     pub(super) open: Vec<String>,
     /// What was solved for where a coefficient does not vanish.
-    pivots: Vec<Pivot>,
+    pub(super) pivots: Vec<Pivot>,
 }
 
 impl<'f> Comparison<'f> {
@@ -63,6 +68,7 @@ impl<'f> Comparison<'f> {
             on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
             refutes: true,
+            contradicts_at_corner: Cell::new(false),
         }
     }
 
@@ -81,6 +87,7 @@ impl<'f> Comparison<'f> {
             on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
             refutes: self.refutes,
+            contradicts_at_corner: Cell::new(false),
         }
     }
 
@@ -89,20 +96,23 @@ impl<'f> Comparison<'f> {
         let mut judged = Vec::new();
         let mut pivots: BTreeSet<Pivot> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
+        let euler: Vec<Expr> = self.variation.euler.iter().map(|(_, e)| *e).collect();
+        let stated = self.residuals(None);
         for equation in self
             .functional
             .with_role(Role::Yielded)
             .filter(|e| e.on.is_none())
         {
-            judged.push(self.equation(equation, &self.derived));
+            judged.push(self.equation(equation, &self.derived, &euler));
         }
         for &(component, value) in &self.variation.euler {
             let name = self.functional.space.component_at(component).name;
-            judged.push(self.judge(
-                format!("the Euler equation of {name}"),
-                &[value],
-                &self.stated,
-            ));
+            let what = format!("the Euler equation of {name}");
+            let own = self.judge(what, &[value], &self.stated, &stated);
+            let own = self.where_propagated(own, &[value], &self.stated, &|on, piece| {
+                self.stated_on(on, piece)
+            });
+            judged.push(own);
         }
         let mut notes = |solved: &Solved<'_>| {
             pivots.extend(solved.pivots.iter().cloned());
@@ -200,8 +210,14 @@ impl<'f> Comparison<'f> {
             .collect();
         derived = derived.with_at_corner(&conditions);
         stated = stated.with_at_corner(&own);
+        if derived.contradiction().is_some() {
+            self.contradicts_at_corner.set(true);
+        }
+        let values: Vec<Expr> = here.iter().map(|corner| corner.value).collect();
+        let residuals = equations.iter().flat_map(|e| e.residuals.clone());
+        let residuals: Vec<Expr> = residuals.collect();
         for equation in equations {
-            judged.push(self.equation(equation, &derived));
+            judged.push(self.equation(equation, &derived, &values));
         }
         for corner in here {
             let name = functional.space.component_at(corner.component).name;
@@ -209,7 +225,7 @@ impl<'f> Comparison<'f> {
                 "the condition of {name} where {} and {} meet",
                 pair.0, pair.1
             );
-            judged.push(self.judge(what, &[corner.value], &stated));
+            judged.push(self.judge(what, &[corner.value], &stated, &residuals));
         }
     }
 
@@ -219,12 +235,7 @@ impl<'f> Comparison<'f> {
         let pieces = &self.variation.pieces;
         for (at, one) in pieces.iter().enumerate() {
             for other in &pieces[at + 1..] {
-                let components: BTreeSet<usize> = one
-                    .slopes
-                    .iter()
-                    .chain(&other.slopes)
-                    .map(|(c, _)| *c)
-                    .collect();
+                let components = acting_at_edge(one, other);
                 if components.is_empty() || functional.space.dimensions() == 1 {
                     continue;
                 }
@@ -243,52 +254,45 @@ impl<'f> Comparison<'f> {
                         "the condition of {name} where {} and {} meet",
                         one.piece, other.piece
                     );
-                    let difference = edge(functional, one, other, component);
-                    judged.push(self.judge(what, &along(functional, &difference), &stated));
+                    let own = at_edge(functional, one, other, component);
+                    judged.push(self.judge(what, &own, &stated, &[]));
                 }
             }
         }
     }
 
-    fn equation(&self, equation: &Equation, where_holds: &Solved<'f>) -> Judged {
+    fn equation(&self, equation: &Equation, where_holds: &Solved<'f>, derived: &[Expr]) -> Judged {
         let what = format!("the stated equation ({})", equation.label);
-        let own = self.judge(what, &equation.residuals, where_holds);
-        match (&own.verdict, &equation.on) {
-            (Verdict::Refuted(_), None) if self.is_constant_and_zero(&equation.residuals) => {
-                Judged {
-                    verdict: Verdict::Proved(Proof::exact("", "")),
-                    open: Vec::new(),
-                    ..own
-                }
+        let own = self.judge(what, &equation.residuals, where_holds, derived);
+        match &equation.on {
+            None => self.where_propagated(own, &equation.residuals, &self.derived, &|on, piece| {
+                self.derived_on(on, piece)
+            }),
+            Some(piece) => {
+                let derived: (_, &AtEnd<'_, 'f>) =
+                    (&self.derived, &|on, piece| self.derived_on(on, piece));
+                self.where_propagated_to(piece, own, &equation.residuals, derived)
             }
-            _ => own,
         }
     }
 
-    /// Whether expressions of one variable are constant where the Euler equations hold, and vanish at an end, so that they vanish everywhere.
-    fn is_constant_and_zero(&self, es: &[Expr]) -> bool {
-        let space = &*self.functional.space;
-        if space.coordinates.len() != 1 {
-            return false;
-        }
-        es.iter().all(|&e| {
-            let is_zero_on = |on: &OnPiece| {
-                let piece = self.functional.piece(&on.piece);
-                // A piece without a place may be empty.
-                piece.is_some_and(|piece| {
-                    matches!(piece.side, Side::Flat { .. })
-                        && self.derived_on(on, piece).follows(&[e])
-                })
-            };
-            self.derived.follows(&[e])
-                || self.derived.follows(&[space.total(e, 0)])
-                    && self.variation.pieces.iter().any(is_zero_on)
-        })
-    }
-
-    fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
+    /// Keeps what a system was divided by.
+    pub(super) fn divided_by(&self, solved: &Solved<'f>) {
         let divided = solved.nonzero.iter().cloned();
         self.nonzero.borrow_mut().extend(divided);
+    }
+
+    /// The verdict on expressions where a system holds; those that are among its equations as they are need no solution of it.
+    fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>, equations: &[Expr]) -> Judged {
+        if let Some(verdict) = self.are_among(es, equations) {
+            return Judged {
+                what,
+                verdict,
+                open: Vec::new(),
+                pivots: Vec::new(),
+            };
+        }
+        self.divided_by(solved);
         let whole = if self.refutes {
             of_all(es, solved)
         } else if solved.follows(es) {
@@ -311,8 +315,7 @@ impl<'f> Comparison<'f> {
         let mut open = Vec::new();
         let mut pivots = Vec::new();
         for case in cases {
-            let divided = case.nonzero.iter().cloned();
-            self.nonzero.borrow_mut().extend(divided);
+            self.divided_by(&case);
             let verdict = of_all(es, &case);
             let labels = case.left.iter().filter(|_| !case.is_circular());
             let labels: Vec<String> = labels.map(|group| case.named(group)).collect();
@@ -337,30 +340,55 @@ impl<'f> Comparison<'f> {
         }
     }
 
+    /// That each expression is one of the equations, up to its sign.
+    fn are_among(&self, es: &[Expr], equations: &[Expr]) -> Option<Verdict> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let same = |e: Expr, own: Expr| {
+            let both = [g.sub(e, own), g.add(&[e, own])];
+            let seen = both.into_iter().find(|&own| space.seems_to_vanish(own))?;
+            match space.vanishing(&[seen], false) {
+                Verdict::Proved(proof) => Some(Verdict::Proved(proof)),
+                _ => None,
+            }
+        };
+        es.iter()
+            .try_fold(Verdict::Proved(Proof::exact("", "")), |all, &e| {
+                let own = equations.iter().find_map(|&own| same(e, own))?;
+                Some(all.and(own))
+            })
+    }
+
+    /// The residuals of stated equations at a place.
+    fn residuals(&self, on: Option<&str>) -> Vec<Expr> {
+        let stated = self.functional.with_role(Role::Yielded);
+        let here = stated.filter(|e| e.on.as_deref() == on);
+        here.flat_map(|e| e.residuals.clone()).collect()
+    }
+
     /// Both directions on a piece of the boundary.
     pub(super) fn piece(&self, on: &OnPiece, judged: &mut Vec<Judged>) -> (Solved<'f>, Solved<'f>) {
         let functional = self.functional;
         let name = Some(on.piece.as_str());
-        let imposed = groups(functional, Role::Imposed, name);
         let Some(piece) = functional.piece(&on.piece) else {
             return (self.derived.clone(), self.stated.clone());
         };
-        let derived = self.derived_on(on, piece);
-        let stated = self.stated.with_on(&piece.side, &imposed).with(&groups(
-            functional,
-            Role::Yielded,
-            name,
-        ));
+        let (derived, stated) = (self.derived_on(on, piece), self.stated_on(on, piece));
+        let conditions: Vec<Expr> = on.conditions.iter().map(|own| own.value).collect();
         for equation in functional
             .with_role(Role::Yielded)
             .filter(|e| e.on.as_deref() == name)
         {
-            judged.push(self.equation(equation, &derived));
+            judged.push(self.equation(equation, &derived, &conditions));
         }
+        let residuals = self.residuals(name);
         for condition in &on.conditions {
             let component = functional.space.component_at(condition.component).name;
             let what = format!("the natural condition of {component} on {}", on.piece);
-            judged.push(self.judge(what, &[condition.value], &stated));
+            let own = self.judge(what, &[condition.value], &stated, &residuals);
+            let stated: (_, &AtEnd<'_, 'f>) =
+                (&self.stated, &|on, piece| self.stated_on(on, piece));
+            judged.push(self.where_propagated_to(&on.piece, own, &[condition.value], stated));
         }
         (derived, stated)
     }
@@ -454,7 +482,9 @@ impl<'f> Comparison<'f> {
     /// Whether the Euler equations and natural conditions contradict each other, so that there is nothing to compare.
     fn is_contradictory(&self) -> bool {
         let mut pieces = self.variation.pieces.iter();
-        self.derived.contradiction().is_some() || pieces.any(|on| self.is_contradictory_on(on))
+        self.derived.contradiction().is_some()
+            || self.contradicts_at_corner.get()
+            || pieces.any(|on| self.is_contradictory_on(on))
     }
 
     /// The same on a piece. What contradicts itself there does so where the piece is plane, which is soon seen.
@@ -464,6 +494,14 @@ impl<'f> Comparison<'f> {
         };
         self.is_contradictory_where_plane(&on.piece) != Some(false)
             && self.derived_on(on, piece).contradiction().is_some()
+    }
+
+    /// What holds on a piece because it is imposed or stated.
+    fn stated_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
+        let name = Some(on.piece.as_str());
+        let imposed = groups(self.functional, Role::Imposed, name);
+        let here = self.stated.with_on(&piece.side, &imposed);
+        here.with(&groups(self.functional, Role::Yielded, name))
     }
 
     /// What holds on a piece because it is imposed or derived.
@@ -529,40 +567,6 @@ fn on(pivots: &BTreeSet<Pivot>, inverted: &BTreeSet<String>) -> String {
         ));
     }
     place
-}
-
-/// The difference of the coefficients of the gradient of a component on two pieces.
-fn edge(functional: &Functional, one: &OnPiece, other: &OnPiece, component: usize) -> Vec<Expr> {
-    let g = &functional.space.graph;
-    let of = |on: &OnPiece| {
-        on.slopes
-            .iter()
-            .find(|(c, _)| *c == component)
-            .map(|(_, q)| q.clone())
-    };
-    let zeros = vec![g.zero(); functional.space.dimensions()];
-    let (a, b) = (
-        of(one).unwrap_or_else(|| zeros.clone()),
-        of(other).unwrap_or(zeros),
-    );
-    a.iter().zip(&b).map(|(&a, &b)| g.sub(a, b)).collect()
-}
-
-/// The part of the coefficient of a gradient along a curved piece: at its edges it has to vanish.
-fn along(functional: &Functional, q: &[Expr]) -> Vec<Expr> {
-    let g = &functional.space.graph;
-    let normal = functional.space.normal();
-    if normal.len() == 1 {
-        return Vec::new();
-    }
-    let through: Vec<Expr> = normal
-        .iter()
-        .zip(q)
-        .map(|(&n, &q)| g.mul(&[n, q]))
-        .collect();
-    let through = g.add(&through);
-    let own = normal.iter().zip(q);
-    own.map(|(&n, &q)| g.sub(q, g.mul(&[n, through]))).collect()
 }
 
 pub(super) fn groups(functional: &Functional, role: Role, on: Option<&str>) -> Vec<Group> {

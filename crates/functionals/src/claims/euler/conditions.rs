@@ -121,6 +121,7 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<Needed> {
                 Function::Abs if is_smooth && !smoothed.contains(&e) => {
                     (*arguments.first()?, Relation::NotEqual)
                 }
+                Function::Sign if is_smooth => (*arguments.first()?, Relation::NotEqual),
                 _ => return None,
             },
             _ => return None,

@@ -4,6 +4,7 @@ mod comparison;
 mod conditions;
 mod exceptions;
 mod plane;
+mod propagation;
 mod remarks;
 
 use self::comparison::Comparison;
@@ -39,12 +40,17 @@ impl Claim for Euler {
          dimension by integrating what is constant; what conditions at other places enforce together (a beam without supports whose \
          load is zero only moves rigidly) is not looked for. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
          energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
-         regular. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
+         regular. Where a coefficient of the densities jumps or has a kink inside the body, conditions hold that are not derived, and the claim \
+         is not applicable. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
          jet at which one system holds and the other does not."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         vec![cx.own()]
+    }
+
+    fn differentiates(&self) -> bool {
+        true
     }
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {

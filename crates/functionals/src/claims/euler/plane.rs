@@ -3,9 +3,9 @@
 //! What is claimed of a functional is claimed of every domain, also of one that has a plane part of its boundary. There the normal is
 //! constant and the curvature vanishes, so that all is short, and what is false there is false.
 
+use super::super::on_box::{equation_on, piece_on};
 use super::comparison::{refuted, Comparison, Plane};
 use crate::functional::{Functional, Piece, Side};
-use crate::read::on_side;
 use crate::variation::{variation, OnPiece, Variation};
 use chetaev_symbolic::Verdict;
 
@@ -38,22 +38,17 @@ fn with_plane(functional: &Functional, piece: &Piece) -> Option<Functional> {
         at: first.expr,
     };
     let scope = &functional.scope;
-    let mut own = functional.clone();
-    own.pieces.retain(|other| other.name == piece.name);
-    for plane in &mut own.pieces {
-        plane.density = on_side(scope, &side, plane.density);
-        plane.side = side.clone();
-    }
     let name = Some(piece.name.as_str());
-    own.equations
-        .retain(|e| e.on.is_none() || e.on.as_deref() == name);
-    let here = own.equations.iter_mut().filter(|e| e.on.is_some());
-    for equation in here {
-        let of_multiplier = equation.multiplier.iter_mut().flat_map(|own| &mut own.1);
-        for e in equation.residuals.iter_mut().chain(of_multiplier) {
-            *e = on_side(scope, &side, *e);
-        }
-    }
+    let mut own = functional.clone();
+    let pieces = functional.pieces.iter().filter(|p| p.name == piece.name);
+    own.pieces = pieces.map(|piece| piece_on(scope, piece, &side)).collect();
+    let equations = functional.equations.iter();
+    let here = equations.filter(|e| e.on.is_none() || e.on.as_deref() == name);
+    let placed = here.map(|e| match &e.on {
+        Some(_) => equation_on(scope, e, &side),
+        None => e.clone(),
+    });
+    own.equations = placed.collect();
     own.fields
         .retain(|field| field.on.is_none() || field.on.as_deref() == name);
     Some(own)

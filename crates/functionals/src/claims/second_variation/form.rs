@@ -1,5 +1,6 @@
 //! The second variation as a quadratic form on an interval.
 
+use super::super::solution::rough;
 use super::super::special_values::{put_in, unfit};
 use crate::functional::{Functional, Interval, Role, Side, Solution, Special, SpecialKind};
 use crate::read::on_side;
@@ -176,6 +177,13 @@ impl<'f> Form<'f> {
     /// The second variation decides at stationary fields only.
     fn is_stationary(&self) -> Step<()> {
         let space = &*self.functional.space;
+        let name = &self.solution.name;
+        if let Some((what, why)) = rough(self.functional, self.solution) {
+            return Err(Box::new(Verdict::not_applicable(
+                format!("functional.solution#{name}"),
+                format!("{what} was not shown to be smooth on the body: {why}"),
+            )));
+        }
         let varied = variation(self.functional);
         let varied = varied.map_err(|problem| Box::new(Verdict::undecided(problem.to_string())))?;
         let mut residuals: Vec<Expr> = varied.euler.iter().map(|(_, e)| self.at(*e)).collect();
@@ -205,7 +213,6 @@ impl<'f> Form<'f> {
         {
             return Ok(());
         }
-        let name = &self.solution.name;
         Err(Box::new(Verdict::not_applicable(
             format!("functional.solution#{name}"),
             "the stated fields are not proved to make the functional stationary",

@@ -48,6 +48,10 @@ impl Claim for SecondVariation {
         all.map(|solution| Some(solution.name.clone())).collect()
     }
 
+    fn differentiates(&self) -> bool {
+        true
+    }
+
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let mut all = cx.problem.solutions.iter();
         let own = all.find(|solution| Some(solution.name.as_str()) == subject);
@@ -325,6 +329,14 @@ fn by_integrand(form: &Form<'_>, places: &Places) -> Option<Proof> {
     is_positive.then(|| Proof::exact(POSITIVE, detail))
 }
 
+/// A number with so many digits: as a person writes it, with a power of ten where it is small or large.
+fn decimal(x: f64, digits: usize) -> String {
+    match x.abs() {
+        size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{x:.0$e}", digits - 1),
+        _ => format!("{x:.digits$}"),
+    }
+}
+
 /// A polynomial with a negative second variation.
 fn by_trial(form: &Form<'_>, places: &Places, shown: Option<Shown>) -> Option<Verdict> {
     let free = |k: usize| !form.ends[k].fixed.iter().all(|fixed| *fixed);
@@ -334,18 +346,19 @@ fn by_trial(form: &Form<'_>, places: &Places, shown: Option<Shown>) -> Option<Ve
         places.are_ends[1] || !free(1),
     ];
     let value = trial::negative(form, &places.inner, are_ends)?;
-    let decimal = format!("{:.9}", rational::to_f64(&value));
+    let size = decimal(rational::to_f64(&value), 9);
     let why = match shown {
         Some(Shown::Conjugate(x)) => {
-            format!("Jacobi's field vanishes at x = {x:.12}, inside the interval, and ")
+            let x = decimal(x, 12);
+            format!("Jacobi's field vanishes at x = {x}, inside the interval, and ")
         }
         _ => String::new(),
     };
     Some(Verdict::Refuted(Counterexample {
         point: Vec::new(),
         quantity: "the second variation".into(),
-        residual: (decimal.clone(), decimal.clone()),
-        detail: format!("{why}for polynomials v that are admitted the second variation is {decimal}, by exact integration"),
+        residual: (size.clone(), size.clone()),
+        detail: format!("{why}for polynomials v that are admitted the second variation is {size}, by exact integration"),
     }))
 }
 
