@@ -70,6 +70,17 @@ fn what_both_ends_enforce_is_not_refuted() {
     assert_ne!(said(&text("\"0\"", "\"b\",")), "refuted");
     // With any value given at the left end it is false.
     assert_eq!(said(&text(HELD, "")), "refuted");
+    // The same across a strip of threads, where no derivative by y occurs.
+    let strip = |text: String| {
+        text.replace("[\"x\"]", "[\"x\", \"y\"]")
+            .replace("{ x = [0, 1] }", "{ x = [0, 1], y = [0, 1] }")
+            .replace(
+                "\"x = 1\" = \"u^2/2\"",
+                "\"x = 1\" = \"u^2/2\"\n\"y = 0\" = \"0\"\n\"y = 1\" = \"0\"",
+            )
+    };
+    assert_ne!(said(&strip(text("\"0\"", "\"b\","))), "refuted");
+    assert_eq!(said(&strip(text(HELD, ""))), "refuted");
 }
 
 /// On a face the flux has the place of the face: ∫ (x v)' − v(1) = 0.

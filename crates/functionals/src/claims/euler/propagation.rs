@@ -106,7 +106,7 @@ impl<'f> Comparison<'f> {
         said.map(|on| on.piece.as_str()).collect()
     }
 
-    /// The same for what is said on a piece: on a line what another end enforces is not known at this one.
+    /// The same for what is said on a piece: what another piece enforces is not known at this one.
     pub(super) fn where_propagated_to(
         &self,
         piece: &str,
@@ -114,13 +114,12 @@ impl<'f> Comparison<'f> {
         es: &[Expr],
         (inside, at_end): (&Solved<'f>, &AtEnd<'_, 'f>),
     ) -> Judged {
-        let is_line = self.functional.space.coordinates.len() == 1;
         let here = self.variation.pieces.iter().find(|on| on.piece == piece);
         let here = here.and_then(|on| Some(at_end(on, self.functional.piece(piece)?)));
         let is_number =
             here.is_none_or(|here| es.iter().any(|&e| self.is_never_zero(here.normal(e))));
         let mut ends = self.ends_with_conditions().into_iter();
-        if !is_line || is_number || ends.all(|own| own == piece) {
+        if is_number || ends.all(|own| own == piece) {
             return own;
         }
         self.where_propagated(own, es, inside, at_end)
