@@ -86,6 +86,7 @@ impl Prepared {
             binding: &self.binding,
             numeric: &self.numeric,
             start: &self.start,
+            factors: &[],
         }
     }
 

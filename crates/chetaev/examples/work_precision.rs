@@ -82,6 +82,7 @@ fn measure(path: &str, overrides: &[(&str, &str)], t_end: f64) {
         binding: &motion.binding,
         numeric: &numeric,
         start: &motion.start,
+        factors: &[],
     };
     println!("{path} {overrides:?} to t = {t_end}");
     let settings = |method: &str, tolerance: f64| RunSettings {

@@ -6,13 +6,14 @@
 //! - the start: [`initial`] (consistent data, branches of the highest derivatives);
 //! - what is integrated: [`multiplier_flow`] (Routh, solved at each state), [`formulation_flow`] (any other form in its own state),
 //!   [`jet_flow`] (constraints of order two and more), on [`numeric`] terms, with [`chart`]s of independent velocities;
-//! - on the way: [`watch`] (what makes the equations singular), [`crossing`] (where the rank of the constraints falls), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
+//! - on the way: [`watch`] (what makes the equations singular), [`crossing`] (where the rank of the constraints falls), [`component`] (constraints that are products), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
 //!   [`keep`] (projection on integrals), [`stop`] (why a run ended);
 //! - many runs: [`repeat`] (compiled once, for many starts and parameters).
 
 pub mod accelerations;
 mod along;
 pub mod chart;
+pub mod component;
 mod course;
 pub mod crossing;
 pub mod dense;
@@ -44,6 +45,7 @@ pub mod stop;
 pub mod turns;
 pub mod watch;
 
+pub use component::Component;
 pub use double_double::{DoubleDouble, Precise, PreciseRows};
 pub use happening::{EventWatched, Happened};
 pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};

@@ -25,6 +25,7 @@ use chetaev_integrate::{
 };
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::REFERENCE;
+use chetaev_mechanics::components::Factor;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
@@ -339,6 +340,8 @@ pub struct Subject<'a> {
     pub numeric: &'a NumericSystem,
     /// Where to start.
     pub start: &'a ConsistentState,
+    /// The factors in the place of constraints that are products, on a component of them ([`Component`](crate::component::Component)).
+    pub factors: &'a [Factor],
 }
 
 impl Subject<'_> {
@@ -441,6 +444,19 @@ impl Subject<'_> {
     /// # Errors
     /// [`RunError`].
     pub fn by(
+        &self,
+        formulation: &'static dyn Formulation,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        match self.factors.is_empty() {
+            true => self.integrated(formulation, settings, watcher),
+            false => self.on_component(formulation, settings, watcher),
+        }
+    }
+
+    /// The same with the constraints as they are.
+    pub(crate) fn integrated(
         &self,
         formulation: &'static dyn Formulation,
         settings: &RunSettings,

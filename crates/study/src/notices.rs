@@ -433,6 +433,14 @@ pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) 
     })
 }
 
+/// On which component of constraints that are products the motion was computed.
+pub(crate) fn component(motion: &Motion) -> Option<String> {
+    let on = motion.component.as_ref()?;
+    Some(format!(
+        "the motion starts on the component {on}, and on no other: it is computed there, and the multipliers are those of the constraints as stated"
+    ))
+}
+
 /// Places at which the motion went on along the one branch that contains its velocity.
 fn crossings(crossings: &[Crossing]) -> Option<String> {
     let shown = crossings.iter().take(MOST_TIMES);

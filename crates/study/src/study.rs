@@ -8,7 +8,7 @@ use crate::method_order::observed_order;
 use crate::motion_claims::METHOD_ORDER;
 use crate::motion_evidence::{FoundIntegrals, MotionEvidence, Searched};
 use crate::notices::{
-    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
+    component, events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
     rank_falls, stiffness, unused_multipliers,
 };
 use crate::options::{Hooks, StudyOptions};
@@ -37,7 +37,7 @@ use chetaev_mechanics::{
 use chetaev_model::model::Model;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    Binding, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
+    Binding, Component, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
 };
 use chetaev_orbits::witness::perturbed_runs;
 use chetaev_stability::witness::RunsBeside;
@@ -51,6 +51,8 @@ use std::sync::Arc;
 pub struct Motion {
     /// The start.
     pub start: ConsistentState,
+    /// The component of constraints that are products on which it was computed, by equations.
+    pub component: Option<String>,
     /// How it was run.
     pub settings: RunSettings,
     /// Parameter values.
@@ -213,6 +215,7 @@ pub fn study_telling(
             notices.extend(stiffness(motion));
             notices.extend(integrals_not_kept(&model, motion, &options));
             notices.extend(negative_masses(&system, &prepared, motion));
+            notices.extend(component(motion));
             notices.extend(rank_falls(&system, &prepared, motion));
             notices
         });
@@ -292,6 +295,16 @@ fn compute(
         binding: &numeric.binding,
         numeric: &numeric.numeric,
         start: &numeric.start,
+        factors: &[],
+    };
+    // Double-double arithmetic is for constraints as they are stated.
+    let component = match settings.precise {
+        None => Component::of_start(&subject),
+        Some(_) => None,
+    };
+    let subject = match &component {
+        Some(component) => component.subject(&numeric.binding),
+        None => subject,
     };
     let name = options.formulation.as_deref().unwrap_or("routh");
     let Some(formulation) = formulation(name) else {
@@ -412,6 +425,7 @@ fn compute(
     });
     Ok(Some(Motion {
         beside,
+        component: component.as_ref().map(Component::in_words),
         start: numeric.start,
         binding: numeric.binding,
         evidence: Arc::new(evidence),

@@ -56,6 +56,15 @@ pub fn irreducible_factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option
     )
 }
 
+/// `e` over `by`, with their common factors cancelled; `None` where they are too large.
+pub fn quotient(graph: &Graph, e: Expr, by: Expr) -> Option<Expr> {
+    let whole = graph.div(e, by);
+    let (field, values) = normal_forms(graph, &[whole], &Options::display(BUDGET)).ok()?;
+    let value = values.first()?;
+    let above = field.polynomial_expression(value.numerator());
+    Some(graph.div(above, field.polynomial_expression(value.denominator())))
+}
+
 /// The remainder of the numerator of `e` in the division by the numerator of `by`, both as polynomials in `symbol`, up to factors that
 /// divide the leading coefficient of `by`: where that does not vanish and `by` does, the remainder vanishes exactly where `e` does.
 /// `None` where they are no polynomials in it, or too large.

@@ -155,6 +155,7 @@ impl<'a> Subject<'a> {
             maggi: derive(cx, "maggi")?,
             chart: formulation::basis(cx).characteristics()?,
             sampled,
+            factors: &[],
         })
     }
 

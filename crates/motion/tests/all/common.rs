@@ -37,6 +37,7 @@ pub(crate) fn with_data<R>(
         binding: &binding,
         numeric: &numeric,
         start: &start,
+        factors: &[],
     })
 }
 

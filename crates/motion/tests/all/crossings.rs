@@ -4,8 +4,9 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 use crate::common::with_subject;
+use chetaev_integrate::Direction;
 use chetaev_mechanics::{formulation, System, SystemParts};
-use chetaev_motion::{Run, RunSettings, StateKind, Watcher};
+use chetaev_motion::{Component, EventWatched, Run, RunSettings, StateKind, Watcher};
 use chetaev_symbolic::{Expr, Graph};
 use std::sync::Arc;
 
@@ -401,4 +402,142 @@ fn a_rhombus_stays_one() {
     let y = along(6.0);
     let folded = ((y[1] - y[0]) / std::f64::consts::PI).floor() as usize + 1;
     agrees(rhombus, (&at, &velocity), 6.0, (&expected, folded, 30.0));
+}
+
+/// The same on the component on which it starts.
+fn run_on_component(
+    parts: impl Fn(&Graph) -> SystemParts,
+    (q, v): (&[f64], &[f64]),
+    form: &str,
+    settings: &RunSettings,
+) -> Run {
+    let g = Arc::new(Graph::new());
+    let system = System::new(g.clone(), parts(&g)).unwrap();
+    let form = formulation(form).unwrap();
+    with_subject(&system, (q, v), |subject| {
+        let component = Component::of_start(subject).unwrap();
+        let on = component.subject(subject.binding);
+        on.by(form, settings, &mut Watcher::default()).unwrap()
+    })
+}
+
+/// (y − x²)(y + x) = 0: a parabola that a line crosses at (0, 0) and at (−1, 1).
+fn parabola_and_line(g: &Graph) -> SystemParts {
+    let parabola = sum(g, &[(1, 1, &[("y", 1)]), (-1, 1, &[("x", 2)])]);
+    let line = sum(g, &[(1, 1, &[("y", 1)]), (1, 1, &[("x", 1)])]);
+    parts(
+        g,
+        &["x", "y"],
+        g.zero(),
+        vec![("a", g.mul(&[parabola, line]))],
+    )
+}
+
+/// From (1, 1) with the speed √5: the arc from 1 to 0 has the length √5/2 + asinh(2)/4.
+#[test]
+fn a_bead_stays_on_its_curve_where_a_line_crosses_it() {
+    let length = 0.5 * 5.0_f64.sqrt() + 0.25 * 2.0_f64.asinh();
+    let first = length / 5.0_f64.sqrt();
+    for (form, settings, tolerance) in ways(4.0) {
+        let what = format!("{form} {} {:e}", settings.method, settings.tolerance);
+        let start = (&[1.0, 1.0][..], &[-1.0, -2.0][..]);
+        let run = run_on_component(parabola_and_line, start, form, &settings);
+        assert!(run.ending.finished, "{what}: {}", run.ending.reason);
+        let times: Vec<f64> = run.crossings.iter().map(|c| c.t).collect();
+        assert_eq!(times.len(), 2, "{what}: {times:?}");
+        for (t, expected) in times.iter().zip([first, 2.0 * first]) {
+            assert!((t - expected).abs() < tolerance, "{what}: {t} {expected}");
+        }
+        is_continuous(&run, 10.0, &what);
+        let lambda = run.layout.lambda().start;
+        for j in 0..run.len() {
+            let row = run.row(j);
+            let (x, y) = (row[0], row[1]);
+            assert!((y - x * x).abs() < tolerance, "{what}: {x} {y}");
+            // y'' = λ ∂f/∂y with f the product.
+            let (pull, a) = (row[lambda] * (x + y), row[run.layout.a().start + 1]);
+            assert!((pull - a).abs() < 10.0 * tolerance, "{what}: {pull} {a}");
+        }
+    }
+    // Events speak of the multiplier of the product.
+    let start = (&[1.0, 1.0][..], &[-1.0, -2.0][..]);
+    let g = Arc::new(Graph::new());
+    let system = System::new(g.clone(), parabola_and_line(&g)).unwrap();
+    let event = EventWatched {
+        name: "one".into(),
+        value: g.sub(g.symbol("lambda_a", 0), g.one()),
+        direction: Direction::Both,
+        stops: true,
+    };
+    let settings = RunSettings {
+        events: vec![event],
+        ..RunSettings::new(0.0, 4.0)
+    };
+    let run = with_subject(&system, start, |subject| {
+        let component = Component::of_start(subject).unwrap();
+        let on = component.subject(subject.binding);
+        let form = formulation("routh").unwrap();
+        on.by(form, &settings, &mut Watcher::default()).unwrap()
+    });
+    assert_eq!(run.events.len(), 1);
+    let row = &run.events[0].row;
+    assert!((row[run.layout.lambda().start] - 1.0).abs() < 1e-9);
+    let a = row[run.layout.a().start + 1];
+    assert!((a - (row[0] + row[1])).abs() < 1e-8);
+}
+
+/// y (y − x²) = 0 and y (y − x³) = 0: on y = 0 the velocity at 0 lies on both components, and the motion is not determined beyond.
+#[test]
+fn where_components_touch_the_run_ends() {
+    for power in [2, 3] {
+        let touching = |g: &Graph| {
+            let curve = sum(g, &[(1, 1, &[("y", 1)]), (-1, 1, &[("x", power)])]);
+            let line = g.symbol("y", 0);
+            parts(g, &["x", "y"], g.zero(), vec![("a", g.mul(&[curve, line]))])
+        };
+        for (form, settings, _) in ways(3.0) {
+            let what = format!(
+                "{power} {form} {} {:e}",
+                settings.method, settings.tolerance
+            );
+            let start = (&[1.0, 0.0][..], &[-1.0, 0.0][..]);
+            let found = run_on_component(touching, start, form, &settings);
+            assert!(!found.ending.finished, "{what}");
+            assert!(found.crossings.is_empty(), "{what}");
+            assert!(
+                (found.ending.t - 1.0).abs() < 1e-4,
+                "{what}: {}",
+                found.ending.reason
+            );
+            assert!(
+                (found.times.last().unwrap() - found.ending.t).abs() < 1e-12,
+                "{what}"
+            );
+        }
+    }
+}
+
+/// y'² = x'² under gravity: thrown up along y = x, the particle comes to rest at t = 2, and both lines contain the velocity zero.
+#[test]
+fn where_components_of_velocities_meet_the_run_ends() {
+    let lines = |g: &Graph| {
+        let f = sum(g, &[(1, 1, &[("y'", 2)]), (-1, 1, &[("x'", 2)])]);
+        parts(
+            g,
+            &["x", "y"],
+            sum(g, &[(1, 1, &[("y", 1)])]),
+            vec![("a", f)],
+        )
+    };
+    for (form, settings, _) in ways(4.0) {
+        let what = format!("{form} {} {:e}", settings.method, settings.tolerance);
+        let start = (&[0.0, 0.0][..], &[1.0, 1.0][..]);
+        let found = run_on_component(lines, start, form, &settings);
+        assert!(!found.ending.finished, "{what}");
+        assert!(
+            (found.ending.t - 2.0).abs() < 1e-6,
+            "{what}: {}",
+            found.ending.reason
+        );
+    }
 }

@@ -159,7 +159,8 @@ impl Sweep {
             columns,
             stated: stated.initial.values.keys().copied().collect(),
         };
-        let is_routh = formulation.card().name == REFERENCE;
+        // On components of constraints each run has equations of its own.
+        let is_routh = formulation.card().name == REFERENCE && !sweep.system.has_components();
         if is_routh && sweep.prepared.terms.order == 1 && sweep.recipe.is_some() {
             sweep.compiled = Some(sweep.subject().compile_routh(&sweep.settings)?);
         }
@@ -230,6 +231,7 @@ impl Sweep {
             binding: &self.binding,
             numeric: &self.numeric,
             start: &self.start,
+            factors: &[],
         }
     }
 

@@ -5,7 +5,7 @@ use crate::error::StudyError;
 use crate::start::{add_jets, check_rank, settings, start_of_motion};
 use chetaev_ensemble::{Outcome, Work, Worker};
 use chetaev_mechanics::System;
-use chetaev_motion::{ConsistentState, Run, RunSettings, Subject, Watcher};
+use chetaev_motion::{Component, ConsistentState, Run, RunSettings, Subject, Watcher};
 use std::sync::atomic::AtomicBool;
 
 /// The trajectories of a sweep, each from the model with its values written in.
@@ -72,7 +72,12 @@ impl Whole<'_> {
             binding: &start.binding,
             numeric: &start.numeric,
             start: &start.start,
+            factors: &[],
         };
+        let component = Component::of_start(&subject);
+        let subject = component
+            .as_ref()
+            .map_or(subject, |own| own.subject(&start.binding));
         let mut watcher = Watcher {
             interrupt: Some(interrupt),
             progress: None,

@@ -1,0 +1,299 @@
+//! Motions of constraints that are products: on the component on which they start.
+//!
+//! `(y − x²)(y + x) = 0` holds on two curves, and a motion stays on the one on which it starts as long as its state lies on no other. So
+//! it is computed with the factor that vanishes, whose gradient does not where the curves cross: no method and no tolerance takes
+//! another branch. The multiplier of the constraint as stated is that of the factor over what the factor is multiplied by. Where a state
+//! of the motion lies on another component too, both contain the motion so far, and it is not determined beyond: the other factor
+//! is zero there, and with it its rate, where it is a function of the place alone (velocities are continuous).
+
+use crate::chart::{self, Floor};
+use crate::crossing::Crossing;
+use crate::follow::magnitude;
+use crate::functions::FunctionsError;
+use crate::happening::EventWatched;
+use crate::initial::ConsistentState;
+use crate::numeric::{Binding, NumericSystem};
+use crate::observe::Observer;
+use crate::run::{Run, RunError, RunSettings, Subject, Watcher};
+use crate::stop;
+use chetaev_integrate::Direction;
+use chetaev_mechanics::components::{Factor, Other};
+use chetaev_mechanics::{words, Formulation, MotionTerms, Selection, System};
+use chetaev_symbolic::{rational, Expr, Graph, Symbol};
+
+/// A factor below this part of its terms vanishes at a start.
+const VANISHES: f64 = 1e-8;
+/// One below this part of its largest value along the motion vanishes on the way.
+const MET: f64 = 1e-6;
+/// Where the rate of a factor is below this part of its largest value, the components touch.
+const TOUCHING: f64 = 1e-4;
+/// So small a rate of a factor, over the length of the run, is that of a constant.
+const CONSTANT: f64 = 1e-9;
+
+/// A system on the component of its constraints on which a motion starts.
+#[derive(Clone, Debug)]
+pub struct Component {
+    system: System,
+    terms: MotionTerms,
+    selection: Selection,
+    numeric: NumericSystem,
+    start: ConsistentState,
+    factors: Vec<Factor>,
+}
+
+impl Component {
+    /// That of a subject; `None` where no constraint is a product, where the start lies on more than one component, and for constraints of order
+    /// two and more.
+    pub fn of_start(subject: &Subject<'_>) -> Option<Component> {
+        if subject.terms.order > 1 {
+            return None;
+        }
+        let vanishes = |e: Expr| vanishes(subject, e);
+        let (system, factors) = subject.system.on_component_of(&vanishes)?;
+        let terms = MotionTerms::new(&system);
+        let mut numeric = NumericSystem::new(&system, &terms, subject.binding).ok()?;
+        let start = subject.start;
+        numeric.evaluate(start.t, &start.q, &start.v).ok()?;
+        let chart = chart::choose(
+            numeric.jacobian(),
+            (numeric.r, numeric.n),
+            &numeric.mass_diagonal(),
+            Floor::Along(1.0),
+        );
+        if chart.rank() != start.chart.rank() || numeric.r != subject.numeric.r {
+            return None;
+        }
+        let selection = Selection {
+            rows: chart.rows.clone(),
+            dependent: chart.dependent.clone(),
+        };
+        let start = ConsistentState {
+            chart,
+            ..start.clone()
+        };
+        Some(Component {
+            system,
+            terms,
+            selection,
+            numeric,
+            start,
+            factors,
+        })
+    }
+
+    /// The subject on the component.
+    pub fn subject<'a>(&'a self, binding: &'a Binding) -> Subject<'a> {
+        Subject {
+            system: &self.system,
+            terms: &self.terms,
+            selection: &self.selection,
+            binding,
+            numeric: &self.numeric,
+            start: &self.start,
+            factors: &self.factors,
+        }
+    }
+
+    /// What is said of it: the component by constraint.
+    pub fn in_words(&self) -> String {
+        let g = &self.system.graph;
+        let all = self.factors.iter().map(|own| {
+            let name = &self.system.constraints[own.constraint].name;
+            format!("{} = 0 of `{name}`", g.text(own.function))
+        });
+        all.collect::<Vec<String>>().join(" and ")
+    }
+}
+
+/// Whether a function vanishes at the start beside its terms.
+fn vanishes(subject: &Subject<'_>, e: Expr) -> Option<bool> {
+    let (system, start) = (subject.system, subject.start);
+    let g = &system.graph;
+    let e = g.substitute(system.defined(e), &subject.binding.controls);
+    let variables = subject.binding.variables.iter().copied();
+    let values = std::iter::once(start.t).chain(start.q.iter().chain(&start.v).copied());
+    let known: Vec<(Symbol, f64)> = variables.zip(values).collect();
+    let parameters = &subject.binding.parameters;
+    let value = |s: Symbol| {
+        let mut all = known.iter().chain(parameters);
+        all.find(|own| own.0 == s).map(|own| own.1)
+    };
+    let both = g.evaluate_f64(&[e, magnitude(g, e)], &value).ok()?;
+    Some(both[0].abs() <= VANISHES * both[1])
+}
+
+/// Another component, and when the motion is met on it.
+struct Watched<'f> {
+    constraint: &'f str,
+    own: Expr,
+    other: &'f Other,
+}
+
+impl Subject<'_> {
+    /// Integrates on the component, looking for others on the way; in rows and events stand the multipliers of the constraints as stated.
+    pub(crate) fn on_component(
+        &self,
+        formulation: &'static dyn Formulation,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let others = self.others();
+        let mut settings = settings.clone();
+        self.state_on_factors(&mut settings.events);
+        let own = settings.events.len();
+        let span = settings.t_end - self.start.t;
+        let nearest = others.iter().map(|other| self.nearest(other.other, span));
+        settings.events.extend(nearest);
+        let mut run = self.integrated(formulation, &settings, watcher)?;
+        let met = self.met(&others, &run, own)?;
+        settings.events.truncate(own);
+        if let Some((t, place)) = met.ended {
+            settings.t_end = t;
+            let forward = span >= 0.0;
+            let is_asked = settings.times.contains(&t);
+            settings
+                .times
+                .retain(|&x| if forward { x < t } else { x > t });
+            settings.times.push(t);
+            run = self.integrated(formulation, &settings, watcher)?;
+            run.ends_between = !is_asked;
+            run.ending = stop::undetermined(self.reason(&others[place], t), t);
+        }
+        run.events.retain(|event| event.event < own);
+        let rank = self.selection.rows.len();
+        let passed = met.passed.into_iter();
+        run.crossings.extend(passed.map(|t| Crossing {
+            t,
+            rank: (rank, rank.saturating_sub(1)),
+        }));
+        let forward = if span < 0.0 { -1.0 } else { 1.0 };
+        run.crossings
+            .sort_by(|a, b| (forward * a.t).total_cmp(&(forward * b.t)));
+        self.state_multipliers(&mut run)?;
+        Ok(run)
+    }
+
+    fn others(&self) -> Vec<Watched<'_>> {
+        let all = self.factors.iter().flat_map(|factor| {
+            factor.others.iter().map(|other| Watched {
+                constraint: &self.system.constraints[factor.constraint].name,
+                own: factor.function,
+                other,
+            })
+        });
+        all.collect()
+    }
+
+    /// The event that the square of a factor is least; where the factor is constant there is none.
+    fn nearest(&self, other: &Other, span: f64) -> EventWatched {
+        let g = &self.system.graph;
+        let slow = rational::from_f64(CONSTANT / span.abs().max(f64::MIN_POSITIVE));
+        let shift = slow.map_or(g.zero(), |slow| g.mul(&[g.number(slow), other.function]));
+        EventWatched {
+            name: format!("nearest to {} = 0", g.text(other.function)),
+            value: g.mul(&[other.function, g.sub(other.rate, shift)]),
+            direction: Direction::Up,
+            stops: false,
+        }
+    }
+
+    /// Multipliers in events are those of the constraints as stated.
+    fn state_on_factors(&self, events: &mut [EventWatched]) {
+        let g = &self.system.graph;
+        let stated = self.factors.iter().map(|factor| {
+            let own = self.multiplier(factor, g);
+            (own, g.div(own, factor.rest))
+        });
+        let stated: Vec<(Expr, Expr)> = stated.collect();
+        for event in events {
+            event.value = g.substitute(event.value, &stated);
+        }
+    }
+
+    fn multiplier(&self, factor: &Factor, g: &Graph) -> Expr {
+        let name = &self.system.constraints[factor.constraint].name;
+        g.symbol(&format!("lambda_{name}"), 0)
+    }
+
+    /// Where the motion meets other components: it passes, or is not determined beyond.
+    fn met(&self, others: &[Watched<'_>], run: &Run, own: usize) -> Result<Met, FunctionsError> {
+        let functions = others.iter().flat_map(|o| [o.other.function, o.other.rate]);
+        let functions: Vec<Expr> = functions.collect();
+        let mut observer =
+            Observer::with_own(self.system, self.terms, self.binding, &run.own, &functions)?;
+        let mut largest = vec![0.0_f64; functions.len()];
+        let rows = (0..run.len()).map(|j| (run.times[j], run.row(j)));
+        let at_events = run.events.iter().map(|event| (event.t, &event.row[..]));
+        for (t, row) in rows.chain(at_events) {
+            let values = observer.at(t, row);
+            let sizes = largest.iter_mut().zip(values);
+            sizes.for_each(|(most, value)| *most = most.max(value.abs()));
+        }
+        let mut found = Met::default();
+        for event in run.events.iter().filter(|event| event.event >= own) {
+            let place = event.event - own;
+            let values = observer.at(event.t, &event.row);
+            let [value, rate] = [2 * place, 2 * place + 1].map(|k| (values[k].abs(), largest[k]));
+            if value.0 > MET * value.1 {
+                continue;
+            }
+            if others[place].other.is_of_place && rate.0 > TOUCHING * rate.1 {
+                found.passed.push(event.t);
+                continue;
+            }
+            found.ended = Some((event.t, place));
+            break;
+        }
+        Ok(found)
+    }
+
+    fn reason(&self, met: &Watched<'_>, t: f64) -> String {
+        let g = &self.system.graph;
+        let why = match met.other.is_of_place {
+            true => "they touch, so that the velocity lies on both",
+            false => "the velocity lies on both",
+        };
+        format!(
+            "the components {} = 0 and {} = 0 of the constraint `{}` meet at t = {}: {why}; the motion beyond is not determined",
+            g.text(met.own),
+            g.text(met.other.function),
+            met.constraint,
+            words::precise_number(t)
+        )
+    }
+
+    /// Writes the multipliers of the constraints as stated into the rows.
+    fn state_multipliers(&self, run: &mut Run) -> Result<(), FunctionsError> {
+        let rests: Vec<Expr> = self.factors.iter().map(|factor| factor.rest).collect();
+        let mut observer =
+            Observer::with_own(self.system, self.terms, self.binding, &run.own, &rests)?;
+        let of_constraint = |l: usize| self.terms.constraint_index.iter().position(|&own| own == l);
+        let places = self.factors.iter().map(|f| of_constraint(f.constraint));
+        let places: Vec<Option<usize>> = places.collect();
+        let (width, lambda) = (run.layout.len(), run.layout.lambda());
+        let mut state = |t: f64, row: &mut [f64]| {
+            let rests = observer.at(t, row);
+            for (place, rest) in places.iter().zip(rests) {
+                if let Some(place) = place {
+                    row[lambda.start + place] /= rest;
+                }
+            }
+        };
+        for (t, row) in run.times.iter().zip(run.rows.chunks_mut(width.max(1))) {
+            state(*t, row);
+        }
+        for event in &mut run.events {
+            state(event.t, &mut event.row);
+        }
+        Ok(())
+    }
+}
+
+/// What became of the motion where it met other components.
+#[derive(Default)]
+struct Met {
+    /// Times at which it passed.
+    passed: Vec<f64>,
+    /// The time at which it is not determined, and the number of the component met.
+    ended: Option<(f64, usize)>,
+}
