@@ -4,6 +4,54 @@ use crate::ritz_base::STEP;
 use chetaev_symbolic::{meter, rational, Rational};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A solution of equations `row x = right`, with small whole numbers, different ones, for the unknowns that they leave open; `None` where
+/// there is none.
+pub(crate) fn some_solution(
+    unknowns: usize,
+    rows: Vec<(BTreeMap<usize, Rational>, Rational)>,
+) -> Option<Vec<Rational>> {
+    let mut solved: BTreeMap<usize, (BTreeMap<usize, Rational>, Rational)> = BTreeMap::new();
+    for (mut row, mut right) in rows {
+        // Rows that lead with a smaller unknown contain larger ones only.
+        while let Some((lead, entry)) = row.pop_first() {
+            if entry == Rational::ZERO {
+                continue;
+            }
+            let Some((known, own)) = solved.get(&lead) else {
+                row.values_mut()
+                    .for_each(|value| *value = value.clone() / &entry);
+                solved.insert(lead, (std::mem::take(&mut row), right.clone() / &entry));
+                right = Rational::ZERO;
+                break;
+            };
+            meter::spend(STEP * (1 + known.len() as u64));
+            for (&column, value) in known {
+                let place = row.entry(column).or_insert(Rational::ZERO);
+                *place -= rational::product(&entry, value);
+            }
+            right -= rational::product(&entry, own);
+        }
+        if right != Rational::ZERO {
+            return None;
+        }
+    }
+    let mut values = vec![Rational::ZERO; unknowns];
+    let mut open = 0;
+    for place in (0..unknowns).rev() {
+        values[place] = match solved.get(&place) {
+            Some((row, right)) => row.iter().fold(right.clone(), |mut sum, (&column, entry)| {
+                sum -= rational::product(entry, &values[column]);
+                sum
+            }),
+            None => {
+                open += 1;
+                rational::integer(open % 5 + 1)
+            }
+        };
+    }
+    Some(values)
+}
+
 /// `matrix x = right`.
 pub(crate) struct System {
     rows: Vec<BTreeMap<usize, Rational>>,

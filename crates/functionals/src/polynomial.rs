@@ -179,6 +179,23 @@ impl Polynomial {
         sum
     }
 
+    /// Where some variables are constant.
+    #[must_use]
+    pub fn at(&self, values: &[(usize, Rational)]) -> Polynomial {
+        let mut sum = Polynomial::default();
+        for (exponents, value) in &self.0 {
+            let (mut own, mut value) = (exponents.clone(), value.clone());
+            for (axis, x) in values {
+                let n = std::mem::take(own.get_mut(*axis).unwrap_or(&mut 0));
+                let power = rational::powi(x, i64::from(n));
+                let power = power.filter(|_| n > 0).unwrap_or(rational::integer(1));
+                value = rational::product(&value, &power);
+            }
+            sum.add(&Polynomial::monomial(own, value), &rational::integer(1));
+        }
+        sum
+    }
+
     /// Several derivatives.
     #[must_use]
     pub fn slopes(&self, by: &[usize]) -> Polynomial {

@@ -545,6 +545,8 @@ pub struct Simulation {
     pub project: Option<bool>,
     /// Whether the first integrals that are found are kept by projection.
     pub keep_integrals: Option<bool>,
+    /// The components on which the motion goes on where it is not determined: what vanishes there, with its text.
+    pub crossings: Vec<(String, Expr)>,
     /// Where the value of each key stands that is given.
     pub places: Vec<(&'static str, Place)>,
 }

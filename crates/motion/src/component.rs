@@ -11,14 +11,15 @@ use crate::crossing::Crossing;
 use crate::follow::magnitude;
 use crate::functions::FunctionsError;
 use crate::happening::EventWatched;
-use crate::initial::ConsistentState;
+use crate::initial::{consistent_state, ConsistentState, InitialData};
 use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
-use crate::run::{Run, RunError, RunSettings, Subject, Watcher};
+use crate::run::{add, Run, RunError, RunSettings, Subject, Watcher};
 use crate::stop;
-use chetaev_integrate::Direction;
+use chetaev_integrate::{Direction, Note};
 use chetaev_mechanics::components::{Factor, Other};
 use chetaev_mechanics::{words, Formulation, MotionTerms, Selection, System};
+use chetaev_symbolic::factors::quotient;
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
 
 /// A factor below this part of its terms vanishes at a start.
@@ -50,8 +51,7 @@ impl Component {
         }
         let vanishes = |e: Expr| vanishes(subject, e);
         let (system, factors) = subject.system.on_component_of(&vanishes)?;
-        let terms = MotionTerms::new(&system);
-        let mut numeric = NumericSystem::new(&system, &terms, subject.binding).ok()?;
+        let (terms, mut numeric) = numeric(&system, subject.binding)?;
         let start = subject.start;
         numeric.evaluate(start.t, &start.q, &start.v).ok()?;
         let chart = chart::choose(
@@ -60,25 +60,32 @@ impl Component {
             &numeric.mass_diagonal(),
             Floor::Along(1.0),
         );
-        if chart.rank() != start.chart.rank() || numeric.r != subject.numeric.r {
-            return None;
-        }
-        let selection = Selection {
-            rows: chart.rows.clone(),
-            dependent: chart.dependent.clone(),
-        };
+        let is_same = chart.rank() == start.chart.rank() && numeric.r == subject.numeric.r;
         let start = ConsistentState {
             chart,
             ..start.clone()
         };
-        Some(Component {
+        is_same.then(|| Component::new(system, (terms, numeric), start, factors))
+    }
+
+    fn new(
+        system: System,
+        (terms, numeric): (MotionTerms, NumericSystem),
+        start: ConsistentState,
+        factors: Vec<Factor>,
+    ) -> Component {
+        let selection = Selection {
+            rows: start.chart.rows.clone(),
+            dependent: start.chart.dependent.clone(),
+        };
+        Component {
             system,
             terms,
             selection,
             numeric,
             start,
             factors,
-        })
+        }
     }
 
     /// The subject on the component.
@@ -105,6 +112,12 @@ impl Component {
     }
 }
 
+fn numeric(system: &System, binding: &Binding) -> Option<(MotionTerms, NumericSystem)> {
+    let terms = MotionTerms::new(system);
+    let numeric = NumericSystem::new(system, &terms, binding).ok()?;
+    Some((terms, numeric))
+}
+
 /// Whether a function vanishes at the start beside its terms.
 fn vanishes(subject: &Subject<'_>, e: Expr) -> Option<bool> {
     let (system, start) = (subject.system, subject.start);
@@ -125,59 +138,145 @@ fn vanishes(subject: &Subject<'_>, e: Expr) -> Option<bool> {
 /// Another component, and when the motion is met on it.
 struct Watched<'f> {
     constraint: &'f str,
-    own: Expr,
+    factor: &'f Factor,
     other: &'f Other,
 }
 
 impl Subject<'_> {
-    /// Integrates on the component, looking for others on the way; in rows and events stand the multipliers of the constraints as stated.
+    /// Integrates on the component on which the motion starts, and from one to another where that is asked for; in rows and events stand
+    /// the multipliers of the constraints as stated.
     pub(crate) fn on_component(
         &self,
         formulation: &'static dyn Formulation,
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
-        let others = self.others();
+        let (mut run, mut met) = self.up_to_meeting(formulation, (settings, false), watcher)?;
         let mut settings = settings.clone();
+        let mut component: Option<Component> = None;
+        for (text, chosen) in settings.crossings.clone() {
+            let Some((t, place)) = met else { break };
+            let subject = component.as_ref().map(|own| own.subject(self.binding));
+            let next = subject.as_ref().unwrap_or(self).beyond(&run, place, chosen);
+            let Some(next) = next else {
+                let reason = format!(
+                    "{}; `crossings` names `{text}` for this place, which is none of the two",
+                    run.ending.reason
+                );
+                run.ending = stop::undetermined(reason, t);
+                break;
+            };
+            let is_later = |x: f64| if settings.t_end < t { x < t } else { x > t };
+            settings.times.retain(|&x| is_later(x));
+            let on = next.subject(self.binding);
+            let (part, further) = on.up_to_meeting(formulation, (&settings, true), watcher)?;
+            let rank = on.selection.rows.len();
+            component = Some(next);
+            run.crossings.push(Crossing {
+                t,
+                rank: (rank, rank.saturating_sub(1)),
+                onto: Some(text),
+            });
+            run.go_on(part);
+            met = further;
+        }
+        Ok(run)
+    }
+
+    /// Integrates on one component up to where it meets another one, so that the motion is not determined, if it does: the time, and the
+    /// number of the other. A meeting at the start of a run that goes on is left behind.
+    fn up_to_meeting(
+        &self,
+        formulation: &'static dyn Formulation,
+        (stated, goes_on): (&RunSettings, bool),
+        watcher: &mut Watcher<'_>,
+    ) -> Result<(Run, Option<(f64, usize)>), RunError> {
+        let others = self.others();
+        let mut settings = stated.clone();
         self.state_on_factors(&mut settings.events);
         let own = settings.events.len();
         let span = settings.t_end - self.start.t;
         let nearest = others.iter().map(|other| self.nearest(other.other, span));
         settings.events.extend(nearest);
         let mut run = self.integrated(formulation, &settings, watcher)?;
+        if goes_on {
+            let is_left = |t: f64| (t - self.start.t).abs() > MET * span.abs();
+            run.events
+                .retain(|event| event.event < own || is_left(event.t));
+        }
         let met = self.met(&others, &run, own)?;
         settings.events.truncate(own);
         if let Some((t, place)) = met.ended {
             settings.t_end = t;
-            let forward = span >= 0.0;
             let is_asked = settings.times.contains(&t);
             settings
                 .times
-                .retain(|&x| if forward { x < t } else { x > t });
+                .retain(|&x| if span < 0.0 { x > t } else { x < t });
             settings.times.push(t);
             run = self.integrated(formulation, &settings, watcher)?;
             run.ends_between = !is_asked;
             run.ending = stop::undetermined(self.reason(&others[place], t), t);
         }
         run.events.retain(|event| event.event < own);
+        run.notes
+            .retain(|note| event_of(note).is_none_or(|event| event < own));
         let rank = self.selection.rows.len();
         let passed = met.passed.into_iter();
         run.crossings.extend(passed.map(|t| Crossing {
             t,
             rank: (rank, rank.saturating_sub(1)),
+            onto: None,
         }));
         let forward = if span < 0.0 { -1.0 } else { 1.0 };
         run.crossings
             .sort_by(|a, b| (forward * a.t).total_cmp(&(forward * b.t)));
         self.state_multipliers(&mut run)?;
-        Ok(run)
+        Ok((run, met.ended))
+    }
+
+    /// The component on which a motion goes on from its last state, at which two meet: that on which this function vanishes. `None`
+    /// where it is neither.
+    fn beyond(&self, run: &Run, place: usize, function: Expr) -> Option<Component> {
+        let others = self.others();
+        let met = others.get(place)?;
+        let g = &self.system.graph;
+        let moves = |s| self.system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t";
+        let is_same = |e: Expr| {
+            let ratio = quotient(g, function, e);
+            ratio.is_some_and(|ratio| g.is_free_of(ratio, &moves) && !g.is_zero(ratio))
+        };
+        let mut factors = self.factors.to_vec();
+        let system = if is_same(met.factor.function) {
+            self.system.clone()
+        } else if is_same(met.other.function) {
+            let other = met.other.function;
+            let (system, factor) = self.system.on_other_component(met.factor, other)?;
+            let mut all = factors.iter_mut();
+            let place = all.find(|own| own.constraint == factor.constraint)?;
+            *place = factor;
+            system
+        } else {
+            return None;
+        };
+        let (terms, mut numeric) = numeric(&system, self.binding)?;
+        let row = run.row(run.len().checked_sub(1)?);
+        let data = InitialData {
+            t: *run.times.last()?,
+            q: row[run.layout.positions()].to_vec(),
+            v: row[run.layout.v()].to_vec(),
+            q_fixed: vec![false; numeric.n],
+            v_fixed: vec![false; numeric.n],
+            project: true,
+        };
+        let start = consistent_state(&mut numeric, &data).ok()?;
+        Some(Component::new(system, (terms, numeric), start, factors))
     }
 
     fn others(&self) -> Vec<Watched<'_>> {
         let all = self.factors.iter().flat_map(|factor| {
             factor.others.iter().map(|other| Watched {
                 constraint: &self.system.constraints[factor.constraint].name,
-                own: factor.function,
+                factor,
                 other,
             })
         });
@@ -255,7 +354,7 @@ impl Subject<'_> {
         };
         format!(
             "the components {} = 0 and {} = 0 of the constraint `{}` meet at t = {}: {why}; the motion beyond is not determined",
-            g.text(met.own),
+            g.text(met.factor.function),
             g.text(met.other.function),
             met.constraint,
             words::precise_number(t)
@@ -286,6 +385,41 @@ impl Subject<'_> {
             state(event.t, &mut event.row);
         }
         Ok(())
+    }
+}
+
+/// The number of the event that a note is about.
+fn event_of(note: &Note) -> Option<usize> {
+    match *note {
+        Note::Grazing { event, .. }
+        | Note::EventUnresolved { event, .. }
+        | Note::EventUnknown { event, .. } => Some(event),
+        _ => None,
+    }
+}
+
+impl Run {
+    /// Adds the motion from the last state on.
+    fn go_on(&mut self, part: Run) {
+        if self.ends_between {
+            self.times.pop();
+            self.rows.truncate(self.times.len() * self.layout.len());
+        }
+        self.times.extend(part.times);
+        self.rows.extend(part.rows);
+        self.events.extend(part.events);
+        self.crossings.extend(part.crossings);
+        self.chart_changes.extend(part.chart_changes);
+        self.notes.extend(part.notes);
+        add(&mut self.statistics, &part.statistics);
+        (self.t, self.ending, self.ends_between) = (part.t, part.ending, part.ends_between);
+        if let (Some(own), Some(further)) = (&mut self.drift, &part.drift) {
+            own.go_on(further);
+        }
+        let further = part.followed.iter();
+        let both = self.followed.iter_mut().zip(further);
+        both.for_each(|(own, further)| own.go_on(further));
+        self.kept = part.kept.or(self.kept.take());
     }
 }
 

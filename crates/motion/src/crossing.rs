@@ -29,6 +29,8 @@ pub struct Crossing {
     pub t: f64,
     /// The rank elsewhere and there.
     pub rank: (usize, usize),
+    /// The component on which it went on, where that was asked for and not determined.
+    pub onto: Option<String>,
 }
 
 /// Why the motion does not go on: a place, and a sentence.

@@ -63,6 +63,15 @@ impl Drift {
         record(&mut self.position, positions, t);
     }
 
+    /// Adds what was recorded further on.
+    pub(crate) fn go_on(&mut self, further: &Drift) {
+        self.steps += further.steps;
+        let own = self.velocity.iter_mut().chain(&mut self.position);
+        let further = further.velocity.iter().chain(&further.position);
+        own.zip(further)
+            .for_each(|(own, further)| own.record(further.value, further.t));
+    }
+
     /// The largest of all.
     pub fn largest(&self) -> f64 {
         self.velocity

@@ -36,6 +36,13 @@ impl Deviation {
         self.scale = self.scale.max(size);
     }
 
+    /// Adds the deviation of a run that began where this one ended: at most the sum of both.
+    pub(crate) fn go_on(&mut self, further: &Deviation) {
+        let sum = self.drift.value + further.drift.value;
+        self.drift.record(sum, further.drift.t);
+        self.scale = self.scale.max(further.scale);
+    }
+
     /// The deviation over a run; `until_singular` leaves out the last state, at which the equations became singular and the
     /// quantity may have no value.
     pub(crate) fn finished(&self, until_singular: bool) -> Deviation {

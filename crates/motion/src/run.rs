@@ -66,6 +66,9 @@ pub struct RunSettings {
     pub own: Vec<(String, f64)>,
     /// Zeros to be found along the motion.
     pub events: Vec<EventWatched>,
+    /// Where the motion is not determined because components of a constraint meet: functions that vanish on the component on which it goes
+    /// on, one for each such place, with their texts.
+    pub crossings: Vec<(String, Expr)>,
     /// The numbers of a run in double-double arithmetic, which say more than those above; `None` for a run in doubles.
     pub precise: Option<Arc<Precise>>,
 }
@@ -88,6 +91,7 @@ impl RunSettings {
             keep: Vec::new(),
             own: Vec::new(),
             events: Vec::new(),
+            crossings: Vec::new(),
             precise: None,
         }
     }
@@ -718,7 +722,7 @@ impl Subject<'_> {
     }
 }
 
-fn add(total: &mut Statistics, part: &Statistics) {
+pub(crate) fn add(total: &mut Statistics, part: &Statistics) {
     total.steps += part.steps;
     total.rejected += part.rejected;
     total.failed += part.failed;

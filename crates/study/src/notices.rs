@@ -441,22 +441,54 @@ pub(crate) fn component(motion: &Motion) -> Option<String> {
     ))
 }
 
-/// Places at which the motion went on along the one branch that contains its velocity.
+/// Places at which the rank falls and the motion went on: along the one branch that contains its velocity, or as the model asks.
 fn crossings(crossings: &[Crossing]) -> Option<String> {
-    let shown = crossings.iter().take(MOST_TIMES);
-    let shown: Vec<String> = shown
-        .map(|crossing| words::precise_number(crossing.t))
+    let passed = |c: &&Crossing| c.onto.is_none();
+    let passed: Vec<&Crossing> = crossings.iter().filter(passed).collect();
+    let mut said = Vec::new();
+    if let Some(first) = passed.first() {
+        let shown = passed.iter().take(MOST_TIMES);
+        let shown: Vec<String> = shown.map(|c| words::precise_number(c.t)).collect();
+        let more = if passed.len() > MOST_TIMES {
+            format!(", … ({} times)", passed.len())
+        } else {
+            String::new()
+        };
+        let (from, to) = first.rank;
+        said.push(format!(
+            "the rank of the constraints falls at t = {}{more}, from {from} to {to}: branches of the constraint set meet there; exactly one branch of the tangent cone contains the velocity, and simply, and the motion goes on along it, with the velocity unchanged",
+            shown.join(", ")
+        ));
+    }
+    let chosen = crossings
+        .iter()
+        .filter_map(|c| Some((c.t, c.onto.as_ref()?)));
+    said.extend(chosen.take(MOST_TIMES).map(|(t, onto)| {
+        let at = words::precise_number(t);
+        format!(
+            "at t = {at} two components of a constraint contain the velocity, and the motion is not determined: it goes on along {onto}, as `crossings` says"
+        )
+    }));
+    (!said.is_empty()).then(|| said.join("; "))
+}
+
+/// Entries of `crossings` for which the motion met no place.
+pub(crate) fn unused_crossings(motion: &Motion) -> Option<String> {
+    let taken = motion.evidence.run.crossings.iter();
+    let taken = taken.filter(|c| c.onto.is_some()).count();
+    let stated = &motion.settings.crossings;
+    let unused: Vec<String> = stated
+        .iter()
+        .skip(taken)
+        .map(|(text, _)| format!("`{text}`"))
         .collect();
-    let more = if crossings.len() > MOST_TIMES {
-        format!(", … ({} times)", crossings.len())
-    } else {
-        String::new()
-    };
-    let (from, to) = crossings.first()?.rank;
-    Some(format!(
-        "the rank of the constraints falls at t = {}{more}, from {from} to {to}: branches of the constraint set meet there; exactly one branch of the tangent cone contains the velocity, and simply, and the motion goes on along it, with the velocity unchanged",
-        shown.join(", ")
-    ))
+    (!unused.is_empty()).then(|| {
+        format!(
+            "{} of `crossings` was not needed: the motion goes on from {} at which it is not determined",
+            unused.join(", "),
+            words::counted(taken, "place", "places")
+        )
+    })
 }
 
 /// The squared volume of r rows of n numbers, each over its length.

@@ -473,6 +473,7 @@ pub(crate) fn settings(
         return Err(StudyError::Step);
     }
     settings.times = output_times(model, &values, t_start, t_end)?;
+    settings.crossings.clone_from(&simulation.crossings);
     settings.max_steps = simulation.max_steps.unwrap_or(settings.max_steps);
     settings.state = simulation.state.map(|state| match state {
         ModelState::Full => StateKind::Full,

@@ -9,7 +9,7 @@ use crate::motion_claims::METHOD_ORDER;
 use crate::motion_evidence::{FoundIntegrals, MotionEvidence, Searched};
 use crate::notices::{
     component, events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
-    rank_falls, stiffness, unused_multipliers,
+    rank_falls, stiffness, unused_crossings, unused_multipliers,
 };
 use crate::options::{Hooks, StudyOptions};
 use crate::preparation::{prepare, wrong_characteristics};
@@ -216,6 +216,7 @@ pub fn study_telling(
             notices.extend(integrals_not_kept(&model, motion, &options));
             notices.extend(negative_masses(&system, &prepared, motion));
             notices.extend(component(motion));
+            notices.extend(unused_crossings(motion));
             notices.extend(rank_falls(&system, &prepared, motion));
             notices
         });
@@ -302,6 +303,7 @@ fn compute(
         None => Component::of_start(&subject),
         Some(_) => None,
     };
+    let stated = subject;
     let subject = match &component {
         Some(component) => component.subject(&numeric.binding),
         None => subject,
@@ -401,8 +403,11 @@ fn compute(
         }
         _ => None,
     };
+    // A motion that goes on along another component leaves the factors of the first.
+    let has_changed = run.crossings.iter().any(|crossing| crossing.onto.is_some());
+    let measured = if has_changed { &stated } else { &subject };
     let mut evidence =
-        MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+        MotionEvidence::new(model, measured, run, comparison, finer, orders, &settings)?;
     if !settings.keep.is_empty() {
         evidence.compare_with(plain.as_ref());
     }

@@ -83,6 +83,8 @@ pub struct Solved<'s> {
     pub inverted: BTreeSet<String>,
     /// Expressions in parameters and data that were divided by.
     pub nonzero: BTreeSet<Expr>,
+    /// All that was divided by and is no number, also what is known not to vanish inside.
+    pub divisors: BTreeSet<Expr>,
 }
 
 /// A matrix that has to be regular where equations are solved.
@@ -185,6 +187,7 @@ impl<'s> Solved<'s> {
             pivots: Vec::new(),
             inverted: BTreeSet::new(),
             nonzero: BTreeSet::new(),
+            divisors: BTreeSet::new(),
         }
     }
 

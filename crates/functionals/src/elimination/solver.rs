@@ -589,13 +589,13 @@ impl Solved<'_> {
     fn note_divisors(&mut self, matrix: &[Vec<Expr>], tensor: &str) {
         let of_row = |row: &Vec<Expr>| row.iter().map(|&e| self.space.explicit(e)).collect();
         let matrix: Vec<Vec<Expr>> = matrix.iter().map(of_row).collect();
-        let size = matrix.len();
-        let is_regular = size <= LARGEST_DETERMINANT
-            && self
-                .space
-                .sign(determinant(&self.space.graph, &matrix))
-                .is_nonzero();
-        if is_regular {
+        let g = &self.space.graph;
+        let is_small = matrix.len() <= LARGEST_DETERMINANT;
+        let divisor = is_small.then(|| determinant(g, &matrix));
+        if let Some(divisor) = divisor.filter(|&e| g.as_number(e).is_none()) {
+            self.divisors.insert(divisor);
+        }
+        if divisor.is_some_and(|e| self.space.sign(e).is_nonzero()) {
             return;
         }
         let entries = if self.has_fields(&matrix.concat()) {

@@ -19,6 +19,8 @@ boundary = ["S"]
 nu = "1/3"
 [fields]
 w = "scalar"
+[data]
+f = "scalar"
 [boundary]
 S = {{ fixed = ["w"] }}
 [equations]
@@ -37,13 +39,13 @@ fn verdict(text: &str) -> (String, String) {
 
 #[test]
 fn laplaces_operator_on_an_edge_is_split_into_the_normal_and_the_curvature() {
-    // Δw = ∂²w/∂n² + H ∂w/∂n + Δ_S w; on the edge w = 0.
-    let membrane = |edge: &str| verdict(&model("1/2 w,i w,i", "w,ii = 0", edge));
-    let (word, detail) = membrane("n_i n_j w,ij + curvature_kk n_i w,i = 0");
+    // Δw = ∂²w/∂n² + H ∂w/∂n + Δ_S w = −f, with any load f; on the edge w = 0.
+    let membrane = |edge: &str| verdict(&model("1/2 w,i w,i - f w", "w,ii + f = 0", edge));
+    let (word, detail) = membrane("n_i n_j w,ij + curvature_kk n_i w,i + f = 0");
     assert_eq!(word, "proved", "{detail}");
     for wrong in [
-        "n_i n_j w,ij + 2 curvature_kk n_i w,i = 0",
-        "n_i n_j w,ij = 0",
+        "n_i n_j w,ij + 2 curvature_kk n_i w,i + f = 0",
+        "n_i n_j w,ij + f = 0",
         "n_i w,i = 0",
     ] {
         assert_eq!(membrane(wrong).0, "refuted", "{wrong}");
@@ -57,8 +59,8 @@ fn laplaces_operator_on_an_edge_is_split_into_the_normal_and_the_curvature() {
 fn the_moment_at_a_curved_edge_of_a_plate_contains_the_curvature() {
     // Timoshenko, Woinowsky-Krieger 1959, § 22, with the curvature of the normal.
     let plate = |edge: &str| {
-        let density = "1/2 ((w,xx + w,yy)^2 - 2 (1 - nu) (w,xx w,yy - w,xy^2))";
-        verdict(&model(density, "w,iijj = 0", edge))
+        let density = "1/2 ((w,xx + w,yy)^2 - 2 (1 - nu) (w,xx w,yy - w,xy^2)) - f w";
+        verdict(&model(density, "w,iijj = f", edge))
     };
     let (word, detail) = plate("w,ii - (1 - nu) curvature_kk n_i w,i = 0");
     assert_eq!(word, "proved", "{detail}");
@@ -159,8 +161,8 @@ fn conditions_on_a_free_curved_edge_that_lead_back_to_each_other_are_refuted() {
 fn what_is_false_where_the_edge_is_straight_is_false() {
     // Nothing says that w vanishes along the edge, only that it is given there: w,ii has a part along it.
     let text = model(
-        "1/2 w,ij w,ij",
-        "w,iijj = 0",
+        "1/2 w,ij w,ij - f w",
+        "w,iijj = f",
         "w,ii - curvature_ii n_j w,j = 0",
     )
     .replace("imposed = [\"zero\"]\n", "");

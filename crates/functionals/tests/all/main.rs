@@ -27,3 +27,4 @@ mod second_variation;
 mod smoothness;
 mod table;
 mod values;
+mod wholes;

@@ -43,15 +43,41 @@ impl System {
         let (mut system, mut found) = (self.clone(), Vec::new());
         for (l, all) in products {
             let factor = self.factor_of(l, &all, vanishes)?;
-            let name = self.constraints[l].name.clone();
-            let own = Constraint::classify(self, name, factor.function).ok()?;
-            if own.order != self.constraints[l].order {
-                return None;
-            }
-            system.constraints[l] = own;
+            system = system.with_factor(&factor)?;
             found.push(factor);
         }
         (!found.is_empty()).then_some((system, found))
+    }
+
+    /// The system with a factor in the place of its constraint; `None` where it is of another order.
+    fn with_factor(&self, factor: &Factor) -> Option<System> {
+        let (mut system, stated) = (self.clone(), &self.constraints[factor.constraint]);
+        let own = Constraint::classify(self, stated.name.clone(), factor.function).ok()?;
+        if own.order != stated.order {
+            return None;
+        }
+        system.constraints[factor.constraint] = own;
+        Some(system)
+    }
+
+    /// The system, which is on a component of a constraint, on the component of another factor of it, with that factor.
+    pub fn on_other_component(&self, factor: &Factor, function: Expr) -> Option<(System, Factor)> {
+        let g = &self.graph;
+        let is_taken = |other: &&Other| other.function == function;
+        let taken = factor.others.iter().find(is_taken)?;
+        let left = Other {
+            function: factor.function,
+            rate: self.total_derivative(factor.function),
+            is_of_place: taken.is_of_place,
+        };
+        let rest = factor.others.iter().filter(|other| !is_taken(other));
+        let own = Factor {
+            constraint: factor.constraint,
+            function,
+            rest: quotient(g, g.mul(&[factor.rest, factor.function]), function)?,
+            others: rest.cloned().chain([left]).collect(),
+        };
+        Some((self.with_factor(&own)?, own))
     }
 
     /// Whether some constraint is a product, of which a motion keeps one factor at zero.

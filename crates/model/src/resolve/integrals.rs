@@ -95,10 +95,32 @@ impl Resolver {
         bindings: &Bindings,
         conditions: &mut Vec<IntegralCondition>,
     ) {
-        let wanted = "an array of equations such as \"theta' = 0\"";
+        let context = Context::state("where an integral holds");
+        let equations = self.equations_of_list(raw, "`on`", bindings, context);
+        conditions.extend(
+            equations
+                .into_iter()
+                .map(|(text, left, right)| IntegralCondition {
+                    integral: integral.to_owned(),
+                    left,
+                    right,
+                    text,
+                }),
+        );
+    }
+
+    /// The equations of an array of texts, with their sides.
+    pub(crate) fn equations_of_list(
+        &mut self,
+        raw: &Raw,
+        key: &'static str,
+        bindings: &Bindings,
+        context: Context,
+    ) -> Vec<(String, Expr, Expr)> {
+        let mut found = Vec::new();
         let Kind::Array(items) = &raw.kind else {
-            self.wrong_kind(raw, "`on`", wanted);
-            return;
+            self.wrong_kind(raw, key, "an array of equations such as \"theta' = 0\"");
+            return found;
         };
         for item in items {
             let Kind::Text(text) = &item.kind else {
@@ -113,27 +135,22 @@ impl Resolver {
             }
             if !is_equation {
                 let message = format!(
-                    "every entry of `on` must be an equation such as \"theta' = 0\"; \"{}\" is none",
+                    "every entry of {key} must be an equation such as \"theta' = 0\"; \"{}\" is none",
                     text.content
                 );
                 self.push(Diagnostic::error("wrong-kind", item.place, message));
                 continue;
             }
-            let context = Context::state("where an integral holds");
             let sides: Vec<Option<Expr>> = parsed
                 .sides
                 .iter()
                 .map(|side| self.lower(text, &parsed, *side, bindings, context))
                 .collect();
             if let [Some(left), Some(right)] = sides[..] {
-                conditions.push(IntegralCondition {
-                    integral: integral.to_owned(),
-                    left,
-                    right,
-                    text: text.content.clone(),
-                });
+                found.push((text.content.clone(), left, right));
             }
         }
+        found
     }
 
     /// `[search] functions = ["sqrt(1 + x^2)", …]`, and `degree = 3`.

@@ -187,6 +187,7 @@ impl Resolver {
             "state",
             "project",
             "keep_integrals",
+            "crossings",
         ];
         let mut simulation = Simulation::default();
         let Some(table) = self.section(root, "simulation") else {
@@ -217,6 +218,10 @@ impl Resolver {
         }
         simulation.project = self.optional_truth(table, "project");
         simulation.keep_integrals = self.optional_truth(table, "keep_integrals");
+        simulation.crossings = match table.get("crossings") {
+            Some(raw) => self.crossings(raw),
+            None => Vec::new(),
+        };
         simulation.max_steps = table
             .get("max_steps")
             .and_then(|raw| self.count(raw, "the number of steps"));
@@ -227,6 +232,15 @@ impl Resolver {
                     _ => StateKind::Reduced,
                 });
         simulation
+    }
+
+    /// `crossings = ["y = 0", "y = x^2"]`.
+    fn crossings(&mut self, raw: &Raw) -> Vec<(String, Expr)> {
+        let context = Context::state("where a motion goes on");
+        let equations = self.equations_of_list(raw, "`crossings`", &Vec::new(), context);
+        let g = &self.graph;
+        let difference = |(text, left, right)| (text, g.sub(left, right));
+        equations.into_iter().map(difference).collect()
     }
 
     fn time_value(

@@ -60,6 +60,7 @@ impl Track {
             let crossing = Crossing {
                 t: at.t,
                 rank: (rank, rank - vanished),
+                onto: None,
             };
             return Passage::Passed {
                 crossing: Some(crossing),

@@ -541,3 +541,57 @@ fn where_components_of_velocities_meet_the_run_ends() {
         );
     }
 }
+
+/// The same, where the model says along which line the particle falls back.
+#[test]
+fn where_components_meet_the_motion_goes_on_as_asked() {
+    let lines = |g: &Graph| {
+        let f = sum(g, &[(1, 1, &[("y'", 2)]), (-1, 1, &[("x'", 2)])]);
+        parts(
+            g,
+            &["x", "y"],
+            sum(g, &[(1, 1, &[("y", 1)])]),
+            vec![("a", f)],
+        )
+    };
+    // Up along y = x with y'' = −1/2, and down from (1, 1) along the line asked for.
+    let expected = |t: f64, side: f64| {
+        let fallen = (t - 2.0) * (t - 2.0) / 4.0;
+        let x = if t < 2.0 {
+            1.0 - fallen
+        } else {
+            1.0 - side * fallen
+        };
+        (x, 1.0 - fallen)
+    };
+    for (text, sign, side) in [("y' = x'", -1, 1.0), ("x' = -y'", 1, -1.0)] {
+        for (form, settings, tolerance) in ways(4.0) {
+            let what = format!("{text} {form} {} {:e}", settings.method, settings.tolerance);
+            let g = Arc::new(Graph::new());
+            let system = System::new(g.clone(), lines(&g)).unwrap();
+            let choice = sum(&g, &[(1, 1, &[("y'", 1)]), (sign, 1, &[("x'", 1)])]);
+            let settings = RunSettings {
+                crossings: vec![(text.into(), choice)],
+                ..settings
+            };
+            let form = formulation(form).unwrap();
+            let start = (&[0.0, 0.0][..], &[1.0, 1.0][..]);
+            let run = with_subject(&system, start, |subject| {
+                let component = Component::of_start(subject).unwrap();
+                let on = component.subject(subject.binding);
+                on.by(form, &settings, &mut Watcher::default()).unwrap()
+            });
+            assert!(run.ending.finished, "{what}: {}", run.ending.reason);
+            assert_eq!(run.crossings.len(), 1, "{what}");
+            assert_eq!(run.times, settings.times, "{what}");
+            assert_eq!(run.rows.len(), run.times.len() * run.layout.len(), "{what}");
+            is_continuous(&run, 2.0, &what);
+            for (j, t) in run.times.iter().enumerate() {
+                let (x, y) = expected(*t, side);
+                let row = run.row(j);
+                let error = (row[0] - x).abs().max((row[1] - y).abs());
+                assert!(error < tolerance, "{what}: {t} {row:?}");
+            }
+        }
+    }
+}

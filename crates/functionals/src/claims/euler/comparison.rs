@@ -1,6 +1,7 @@
 //! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
 //! and where pieces meet.
 
+use super::extension::System;
 use crate::elimination::{Entries, Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
 use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Variation};
@@ -26,6 +27,8 @@ pub(super) struct Comparison<'f> {
     pub(super) refutes: bool,
     /// Whether the conditions where two faces meet contradict each other.
     contradicts_at_corner: Cell<bool>,
+    /// Whether jets of a system are those of solutions, as far as that was asked.
+    pub(super) extended: RefCell<BTreeMap<System, bool>>,
 }
 
 /// A functional with one plane piece of boundary, and its first variation.
@@ -69,6 +72,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: true,
             contradicts_at_corner: Cell::new(false),
+            extended: RefCell::default(),
         }
     }
 
@@ -88,6 +92,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: self.refutes,
             contradicts_at_corner: Cell::new(false),
+            extended: RefCell::default(),
         }
     }
 
@@ -109,10 +114,7 @@ impl<'f> Comparison<'f> {
             let name = self.functional.space.component_at(component).name;
             let what = format!("the Euler equation of {name}");
             let own = self.judge(what, &[value], &self.stated, &stated);
-            let own = self.where_propagated(own, &[value], &self.stated, &|on, piece| {
-                self.stated_on(on, piece)
-            });
-            judged.push(own);
+            judged.push(self.as_whole(own, &[value], System::Stated, None));
         }
         let mut notes = |solved: &Solved<'_>| {
             pivots.extend(solved.pivots.iter().cloned());
@@ -225,7 +227,8 @@ impl<'f> Comparison<'f> {
                 "the condition of {name} where {} and {} meet",
                 pair.0, pair.1
             );
-            judged.push(self.judge(what, &[corner.value], &stated, &residuals));
+            let own = self.judge(what, &[corner.value], &stated, &residuals);
+            judged.push(self.as_whole(own, &[corner.value], System::Stated, None));
         }
     }
 
@@ -255,7 +258,8 @@ impl<'f> Comparison<'f> {
                         one.piece, other.piece
                     );
                     let own = at_edge(functional, one, other, component);
-                    judged.push(self.judge(what, &own, &stated, &[]));
+                    let found = self.judge(what, &own, &stated, &[]);
+                    judged.push(self.as_whole(found, &own, System::Stated, None));
                 }
             }
         }
@@ -264,15 +268,39 @@ impl<'f> Comparison<'f> {
     fn equation(&self, equation: &Equation, where_holds: &Solved<'f>, derived: &[Expr]) -> Judged {
         let what = format!("the stated equation ({})", equation.label);
         let own = self.judge(what, &equation.residuals, where_holds, derived);
-        match &equation.on {
-            None => self.where_propagated(own, &equation.residuals, &self.derived, &|on, piece| {
-                self.derived_on(on, piece)
-            }),
-            Some(piece) => {
-                let derived: (_, &AtEnd<'_, 'f>) =
-                    (&self.derived, &|on, piece| self.derived_on(on, piece));
-                self.where_propagated_to(piece, own, &equation.residuals, derived)
+        self.as_whole(
+            own,
+            &equation.residuals,
+            System::Derived,
+            equation.on.as_deref(),
+        )
+    }
+
+    /// What was refuted at one place, where the system is taken as a whole: the jet has to be that of a solution, and what the system carries
+    /// along follows.
+    fn as_whole(&self, own: Judged, es: &[Expr], system: System, on: Option<&str>) -> Judged {
+        let is_refuted = matches!(own.verdict, Verdict::Refuted(_));
+        if !is_refuted || self.extends(es, system, on) {
+            return own;
+        }
+        let carried = match system {
+            System::Derived => {
+                let at_end: &AtEnd<'_, 'f> = &|on, piece| self.derived_on(on, piece);
+                self.is_carried(es, &self.derived, at_end)
             }
+            System::Stated => {
+                let at_end: &AtEnd<'_, 'f> = &|on, piece| self.stated_on(on, piece);
+                self.is_carried(es, &self.stated, at_end)
+            }
+        };
+        let (verdict, open) = match carried {
+            true => (Verdict::Proved(Proof::exact("", "")), Vec::new()),
+            false => (Verdict::undecided(NOT_AS_WHOLE), own.open),
+        };
+        Judged {
+            verdict,
+            open,
+            ..own
         }
     }
 
@@ -360,7 +388,7 @@ impl<'f> Comparison<'f> {
     }
 
     /// The residuals of stated equations at a place.
-    fn residuals(&self, on: Option<&str>) -> Vec<Expr> {
+    pub(super) fn residuals(&self, on: Option<&str>) -> Vec<Expr> {
         let stated = self.functional.with_role(Role::Yielded);
         let here = stated.filter(|e| e.on.as_deref() == on);
         here.flat_map(|e| e.residuals.clone()).collect()
@@ -386,9 +414,7 @@ impl<'f> Comparison<'f> {
             let component = functional.space.component_at(condition.component).name;
             let what = format!("the natural condition of {component} on {}", on.piece);
             let own = self.judge(what, &[condition.value], &stated, &residuals);
-            let stated: (_, &AtEnd<'_, 'f>) =
-                (&self.stated, &|on, piece| self.stated_on(on, piece));
-            judged.push(self.where_propagated_to(&on.piece, own, &[condition.value], stated));
+            judged.push(self.as_whole(own, &[condition.value], System::Stated, name));
         }
         (derived, stated)
     }
@@ -423,6 +449,9 @@ impl<'f> Comparison<'f> {
                         other.detail().to_owned()
                     };
                     let unused = self.unrelated();
+                    if why == NOT_AS_WHOLE {
+                        return Verdict::undecided(format!("{} {why}{unused}", own.what));
+                    }
                     return Verdict::undecided(format!(
                         "{} was not compared: {why}{unused}",
                         own.what
@@ -517,6 +546,10 @@ impl<'f> Comparison<'f> {
         known.entry(on.piece.clone()).or_insert(own).clone()
     }
 }
+
+/// Why what is refuted at one place is not refuted of the systems.
+const NOT_AS_WHOLE: &str = "does not follow from the other system at its place alone, but conditions without data of their own hold for few \
+     fields, and together they may enforce it; no polynomials were found that satisfy one system and not the other";
 
 /// The verdict on several expressions where equations hold.
 fn of_all(es: &[Expr], solved: &Solved<'_>) -> Verdict {

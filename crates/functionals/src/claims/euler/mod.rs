@@ -3,14 +3,17 @@
 mod comparison;
 mod conditions;
 mod exceptions;
+mod extension;
 mod plane;
 mod propagation;
 mod remarks;
+mod separation;
 
 use self::comparison::Comparison;
 use self::conditions::{in_words, open_factors, where_defined, where_nonzero, Needed};
 use self::exceptions::holds_at_zero;
 use self::plane::planes;
+use self::separation::separated;
 use super::branches::{branches, Branch};
 use super::reduction::{reduced, restricted};
 use super::{Claim, Context, Finding};
@@ -36,13 +39,14 @@ impl Claim for Euler {
          with the equations that `yields` names, together with those that `imposed` names. Both systems are solved, one group of \
          equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
          conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
-         other holds, both ways, inside and on each piece. Equations are compared at one place, by algebra and differentiation, and in one \
-         dimension by integrating what is constant; what conditions at other places enforce together (a beam without supports whose \
-         load is zero only moves rigidly) is not looked for. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
+         other holds, both ways, inside and on each piece. Equations are compared at one place, by algebra and differentiation; what the equations of the \
+         body carry along is decided at an end (the theorem of uniqueness, Lipschitz 1876). Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
          energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
          regular. Where a coefficient of the densities jumps or has a kink inside the body, conditions hold that are not derived, and the claim \
          is not applicable. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
-         jet at which one system holds and the other does not."
+         jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution; else polynomials \
+         that satisfy one system in the body and on its boundary, and not the other. Where there are none the claim is undecided, as conditions at \
+         several places may enforce together what none of them does (a beam without supports whose load is zero only moves rigidly)."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -130,6 +134,9 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
         return refuted;
     }
     let verdict = comparison.compared();
+    if matches!(verdict, Verdict::Undecided { .. }) && nonnegative.is_empty() {
+        return separated(functional, &own).unwrap_or(verdict);
+    }
     if !matches!(verdict, Verdict::Proved(_)) {
         return verdict;
     }

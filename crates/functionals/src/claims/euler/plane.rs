@@ -5,6 +5,7 @@
 
 use super::super::on_box::{equation_on, piece_on};
 use super::comparison::{refuted, Comparison, Plane};
+use super::extension::System;
 use crate::functional::{Functional, Piece, Side};
 use crate::variation::{variation, OnPiece, Variation};
 use chetaev_symbolic::Verdict;
@@ -63,6 +64,10 @@ impl<'f> Comparison<'f> {
     /// A refutation on a piece where it is plane: there no derivative of the curvature makes equations long.
     pub(super) fn refuted_where_plane(&self) -> Option<Verdict> {
         let first = &self.functional.space.coordinates.first()?.name;
+        let all = [System::Derived, System::Stated];
+        if self.planes.is_empty() || !all.iter().all(|own| self.extends(&[], *own, None)) {
+            return None;
+        }
         self.planes.iter().find_map(|plane| {
             let on = plane.variation.pieces.first()?;
             let mut judged = Vec::new();

@@ -5,129 +5,63 @@
 //! a linear equation of its own, with the equations of the body: where it vanishes at an end with as many of its derivatives as are needed,
 //! it vanishes everywhere (the theorem of uniqueness, Lipschitz 1876). So no jet inside refutes it.
 
-use super::comparison::{AtEnd, Comparison, Judged};
-use crate::elimination::{Group, Solved};
-use crate::functional::{Equation, Piece, Role, Side};
+use super::comparison::{AtEnd, Comparison};
+use crate::elimination::{Entries, Group, Pivot, Solved};
+use crate::functional::{Piece, Side};
 use crate::variation::OnPiece;
-use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::Expr;
 
 /// So many derivatives are tried.
 const MOST: usize = 4;
 
-/// What is known of an expression that does not vanish at each place where equations hold.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Propagation {
-    /// It is not carried along: a jet at one place refutes it.
-    No,
-    /// It is, and what holds at an end was not shown to make it vanish.
-    Open,
-    /// It is, and vanishes at an end.
-    Vanishes,
-}
-
 impl<'f> Comparison<'f> {
-    /// A refutation of expressions at one place stands only where none of them is carried along by the system.
-    pub(super) fn where_propagated(
+    /// Whether expressions that do not vanish at each place where a system holds follow from it all the same, as it carries them along from
+    /// an end at which they vanish; `at_end` is what holds on a piece of the boundary.
+    pub(super) fn is_carried(
         &self,
-        own: Judged,
         es: &[Expr],
         inside: &Solved<'f>,
         at_end: &AtEnd<'_, 'f>,
-    ) -> Judged {
-        if !matches!(own.verdict, Verdict::Refuted(_)) {
-            return own;
-        }
-        let open = es.iter().filter(|&&e| !inside.follows(&[e]));
-        let found: Vec<Propagation> = open.map(|&e| self.propagation(e, inside, at_end)).collect();
-        if found.is_empty() || found.contains(&Propagation::No) {
-            return own;
-        }
-        let verdict = if found.contains(&Propagation::Open) {
-            Verdict::undecided(
-                "it does not hold at each place, but the other system carries it along, so that it holds everywhere where conditions at the ends \
-                 make it hold; whether they do together was not decided",
-            )
-        } else {
-            Verdict::Proved(Proof::exact("", ""))
-        };
-        Judged {
-            verdict,
-            open: Vec::new(),
-            ..own
-        }
+    ) -> bool {
+        let vanish = |&e: &Expr| inside.follows(&[e]) || self.vanishes_along(e, inside, at_end);
+        es.iter().all(vanish)
     }
 
-    /// Whether a system carries an expression along one of the variables; `at_end` is what holds on a piece of the boundary.
-    fn propagation(&self, e: Expr, inside: &Solved<'f>, at_end: &AtEnd<'_, 'f>) -> Propagation {
-        // Values that are given at all ends, and are any, enforce nothing.
-        let ends = self.ends_with_conditions();
-        if ends.is_empty() {
-            return Propagation::No;
-        }
-        let axes = 0..self.functional.space.coordinates.len();
-        let mut found = Propagation::No;
-        let mut is_solved = true;
-        for axis in axes {
+    /// Whether a system carries an expression along one of the variables from a face on which it vanishes.
+    fn vanishes_along(&self, e: Expr, inside: &Solved<'f>, at_end: &AtEnd<'_, 'f>) -> bool {
+        let mut axes = 0..self.functional.space.coordinates.len();
+        axes.any(|axis| {
             let Some(chain) = self.chain(e, inside, axis) else {
-                continue;
+                return false;
             };
-            for (on, piece) in self.ends_across(axis) {
+            let mut ends = self.ends_across(axis);
+            ends.any(|(on, piece)| {
                 let there = at_end(on, piece);
-                if there.follows(&chain) {
+                let is_zero = there.follows(&chain) && self.is_regular_at(&there);
+                if is_zero {
                     self.divided_by(&there);
-                    return Propagation::Vanishes;
                 }
-                is_solved &= there.left.is_empty();
-                // What is another number there is no zero.
-                if self.is_never_zero(there.normal(chain[0])) {
-                    return Propagation::No;
-                }
-            }
-            found = Propagation::Open;
-        }
-        // On a line with conditions at one end alone all solutions begin there, and nothing else enforces anything.
-        let is_line = self.functional.space.coordinates.len() == 1;
-        if is_line && is_solved && ends.len() == 1 {
-            return Propagation::No;
-        }
-        found
+                is_zero
+            })
+        })
     }
 
-    /// The pieces on which more is said than that values are given.
-    fn ends_with_conditions(&self) -> Vec<&'f str> {
-        let pieces = self.variation.pieces.iter();
-        let said = pieces.filter(|on| {
-            let mut stated = self.functional.equations.iter();
-            let is_here =
-                |e: &Equation| e.role != Role::Other && e.on.as_deref() == Some(&on.piece);
-            !on.conditions.is_empty() || stated.any(is_here)
-        });
-        said.map(|on| on.piece.as_str()).collect()
+    /// Whether fields occur in nothing that was divided by, which vanishes nowhere on the body: a quotient of fields that vanish at an end
+    /// says nothing of them there.
+    fn is_regular_everywhere(&self, solved: &Solved<'f>) -> bool {
+        self.is_regular_at(solved) && self.is_regular(solved)
     }
 
-    /// The same for what is said on a piece: what another piece enforces is not known at this one.
-    pub(super) fn where_propagated_to(
-        &self,
-        piece: &str,
-        own: Judged,
-        es: &[Expr],
-        (inside, at_end): (&Solved<'f>, &AtEnd<'_, 'f>),
-    ) -> Judged {
-        let here = self.variation.pieces.iter().find(|on| on.piece == piece);
-        let here = here.and_then(|on| Some(at_end(on, self.functional.piece(piece)?)));
-        let is_number =
-            here.is_none_or(|here| es.iter().any(|&e| self.is_never_zero(here.normal(e))));
-        let mut ends = self.ends_with_conditions().into_iter();
-        if is_number || ends.all(|own| own == piece) {
-            return own;
-        }
-        self.where_propagated(own, es, inside, at_end)
+    fn is_regular_at(&self, solved: &Solved<'f>) -> bool {
+        let is_free = |e: &Expr| !self.has_fields(*e);
+        let of_fields = |pivot: &Pivot| pivot.entries == Entries::Fields;
+        solved.divisors.iter().all(is_free) && !solved.pivots.iter().any(of_fields)
     }
 
     /// The expression and its derivatives along an axis, up to the one that vanishes where those before it do.
     fn chain(&self, e: Expr, inside: &Solved<'f>, axis: usize) -> Option<Vec<Expr>> {
         let space = &*self.functional.space;
+        self.is_regular_everywhere(inside).then_some(())?;
         let mut chain = vec![inside.normal(e)];
         for _ in 0..MOST {
             let last = *chain.last()?;
@@ -139,18 +73,13 @@ impl<'f> Comparison<'f> {
                 equations: chain.clone(),
             };
             let closed = inside.with_at_corner(&[group]);
-            if closed.follows(&[next]) {
+            if closed.follows(&[next]) && self.is_regular_everywhere(&closed) {
                 self.divided_by(&closed);
                 return Some(chain);
             }
             chain.push(next);
         }
         None
-    }
-
-    /// Whether an expression has no fields in it that could make it zero.
-    pub(super) fn is_never_zero(&self, e: Expr) -> bool {
-        !self.has_fields(e) && !self.functional.space.vanishes(e)
     }
 
     fn has_fields(&self, e: Expr) -> bool {

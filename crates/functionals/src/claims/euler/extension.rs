@@ -1,0 +1,196 @@
+//! Whether a jet at one place is that of a solution: then what does not hold at the jet does not follow.
+//!
+//! Data may be chosen: an equation that alone contains one holds for any fields, with the data that it gives. Where each equation of the body does
+//! (a load in every equation of equilibrium), fields are bound by nothing but conditions at single places, and what holds at one
+//! place is continued anyhow; where each condition on the boundary does, nothing but the equations of the body restricts a jet. Conditions
+//! without data (an end that is free, or on a spring) hold for few fields, and together they may enforce what no equation says at
+//! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
+
+use super::comparison::{groups, Comparison};
+use crate::elimination::Solved;
+use crate::functional::{Piece, Role};
+use crate::smoothness::Region;
+use chetaev_symbolic::zero::assumptions::Relation;
+use chetaev_symbolic::{Expr, Symbol};
+use std::collections::BTreeSet;
+
+/// Which of the two systems that are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum System {
+    /// What is imposed, and what follows from the first variation.
+    Derived,
+    /// What is imposed, and what is stated.
+    Stated,
+}
+
+/// What an expression depends on that may be chosen at will.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Datum {
+    Component(usize),
+    Parameter(Symbol),
+}
+
+/// An equation that holds somewhere.
+#[derive(Clone)]
+struct Bound {
+    e: Expr,
+    /// What occurs in it.
+    data: BTreeSet<Datum>,
+    is_inside: bool,
+}
+
+impl<'f> Comparison<'f> {
+    /// Whether any jet at a place at which a system holds there is that of fields with which it holds everywhere, for some data; for
+    /// expressions that are looked at there.
+    pub(super) fn extends(&self, es: &[Expr], system: System, on: Option<&str>) -> bool {
+        let solved = match system {
+            System::Derived => &self.derived,
+            System::Stated => &self.stated,
+        };
+        // What is left of the equations of the body may be differentiated across a piece, and was not there.
+        let is_solved = on.is_none() || solved.left.is_empty();
+        is_solved && self.is_regular(solved) && self.has_data(es, system, on)
+    }
+
+    /// Whether what is divided by to solve the equations of the body for derivatives vanishes nowhere, its ends included.
+    pub(super) fn is_regular(&self, solved: &Solved<'f>) -> bool {
+        let space = &*self.functional.space;
+        let region = Region::new(space, self.functional.intervals.clone(), true);
+        let is_of_place = |e: &&Expr| space.is_of_place(&[**e]);
+        let mut of_place = solved.divisors.iter().filter(is_of_place);
+        of_place.all(|&e| region.holds((e, Relation::NotEqual)) == Some(true))
+    }
+
+    /// Whether all equations of the body, or all conditions on its boundary, contain data by which they hold. On a line the conditions at the
+    /// end where a jet is hold at it.
+    fn has_data(&self, es: &[Expr], system: System, on: Option<&str>) -> bool {
+        let functional = self.functional;
+        let is_line = functional.space.coordinates.len() == 1;
+        let known = self.extended.borrow().get(&system).copied();
+        if let Some(known) = known.filter(|_| !is_line) {
+            return known;
+        }
+        let mut inside: Vec<Expr> = Vec::new();
+        let imposed = groups(functional, Role::Imposed, None).into_iter();
+        inside.extend(imposed.flat_map(|group| group.equations));
+        match system {
+            System::Derived => inside.extend(self.variation.euler.iter().map(|(_, e)| *e)),
+            System::Stated => inside.extend(self.residuals(None)),
+        }
+        inside.retain(|&e| !functional.space.vanishes(e));
+        let bound = |e: Expr, is_inside: bool| Bound {
+            e,
+            data: self.data_in(e),
+            is_inside,
+        };
+        let inside: Vec<Bound> = inside.into_iter().map(|e| bound(e, true)).collect();
+        // A parameter is the same number everywhere, so also in what is looked at.
+        let looked_at: BTreeSet<Datum> = es.iter().flat_map(|&e| self.data_in(e)).collect();
+        let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
+        let is_continued = || {
+            let pieces = functional.pieces.iter().filter(is_elsewhere);
+            let on_pieces = pieces.flat_map(|piece| self.conditions_on(piece, system));
+            let mut all = inside.clone();
+            all.extend(on_pieces.map(|e| bound(e, false)));
+            let left = self.without_data(all, &looked_at);
+            self.variation.corners.is_empty() && left.iter().all(|own| own.is_inside)
+        };
+        let found = self.without_data(inside.clone(), &looked_at).is_empty() || is_continued();
+        self.extended.borrow_mut().insert(system, found);
+        found
+    }
+
+    /// The equations that are left when those are left out, one after the other, that alone contain something by which they hold.
+    fn without_data(&self, mut open: Vec<Bound>, looked_at: &BTreeSet<Datum>) -> Vec<Bound> {
+        let is_number = |datum: &Datum| matches!(datum, Datum::Parameter(_));
+        let holds_by_own = |at: usize, open: &[Bound]| {
+            let own = &open[at];
+            let stands_elsewhere = |datum: &Datum| {
+                let mut others = open.iter().enumerate().filter(|(other, _)| *other != at);
+                others.any(|(_, own)| own.data.contains(datum))
+            };
+            own.data.iter().any(|datum| {
+                let may_be_chosen = match is_number(datum) {
+                    true => !own.is_inside && !looked_at.contains(datum),
+                    false => true,
+                };
+                may_be_chosen && !stands_elsewhere(datum) && self.solves(own.e, datum)
+            })
+        };
+        while let Some(at) = (0..open.len()).find(|&at| holds_by_own(at, &open)) {
+            open.remove(at);
+        }
+        open
+    }
+
+    /// What holds on a piece besides the equations of the body.
+    fn conditions_on(&self, piece: &Piece, system: System) -> Vec<Expr> {
+        let name = Some(piece.name.as_str());
+        let imposed = groups(self.functional, Role::Imposed, name);
+        let mut found: Vec<Expr> = imposed.into_iter().flat_map(|own| own.equations).collect();
+        match system {
+            System::Derived => {
+                let here = self.variation.pieces.iter();
+                let here = here.filter(|on| on.piece == piece.name);
+                found.extend(here.flat_map(|on| on.conditions.iter().map(|own| own.value)));
+            }
+            System::Stated => found.extend(self.residuals(name)),
+        }
+        let space = &*self.functional.space;
+        found.retain(|&e| !space.vanishes(e));
+        found
+    }
+
+    /// What an equation may be solved for: data and fields, and on a line parameters; not what the model assumes something of.
+    fn data_in(&self, e: Expr) -> BTreeSet<Datum> {
+        let functional = self.functional;
+        let space = &*functional.space;
+        let g = &space.graph;
+        let e = space.explicit(e);
+        let jets = space.jets_in(&[e]).into_iter();
+        let mut found: BTreeSet<Datum> = jets.map(|jet| Datum::Component(jet.component)).collect();
+        if space.coordinates.len() == 1 {
+            let names = functional.parameters.iter().map(|p| g.symbol(&p.name, 0));
+            let parameters: Vec<Symbol> = names.filter_map(|e| g.as_symbol(e)).collect();
+            let symbols = space.symbols_in(&[e]);
+            let used = parameters.into_iter().filter(|s| symbols.contains(s));
+            found.extend(used.map(Datum::Parameter));
+        }
+        let assumed = space.assumptions();
+        let assumed: Vec<Expr> = assumed
+            .list()
+            .iter()
+            .flat_map(|own| [own.left, own.right])
+            .collect();
+        let symbols = space.symbols_in(&assumed);
+        let jets: BTreeSet<usize> = space
+            .jets_in(&assumed)
+            .iter()
+            .map(|j| j.component)
+            .collect();
+        found.retain(|datum| match datum {
+            Datum::Component(own) => !jets.contains(own),
+            Datum::Parameter(own) => !symbols.contains(own),
+        });
+        found
+    }
+
+    /// Whether an equation is solved for a datum at each place: it is linear in it, with a factor that is a number.
+    fn solves(&self, e: Expr, datum: &Datum) -> bool {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let e = space.explicit(e);
+        let slope = match datum {
+            Datum::Component(component) => {
+                let jets = space.jets_in(&[e]).into_iter();
+                let mut own = jets.filter(|jet| jet.component == *component);
+                match (own.next(), own.next()) {
+                    (Some(jet), None) if jet.by.is_empty() => space.partial(e, &jet),
+                    _ => return false,
+                }
+            }
+            Datum::Parameter(symbol) => space.derive(e, &|s| (s == *symbol).then(|| g.one())),
+        };
+        g.as_number(slope).is_some() && !g.is_zero(slope)
+    }
+}

@@ -1,0 +1,472 @@
+//! Fields that satisfy one of two systems and not the other: polynomials with rational coefficients, found by linear algebra.
+//!
+//! They hold everywhere, in the body and on its boundary, so that they refute what is said of the systems as wholes. A body of any shape is
+//! taken to be a box.
+
+use super::super::on_box::on_box;
+use super::extension::System;
+use crate::functional::{Functional, Interval, Piece, Role, Side, Solution};
+use crate::linear;
+use crate::polynomial::Polynomial;
+use crate::read::on_side;
+use crate::space::Jet;
+use crate::variation::{variation, Variation};
+use chetaev_symbolic::verdict::{Counterexample, PointValue};
+use chetaev_symbolic::zero::assumptions::is_contradicted;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Rational, Symbol, Verdict};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The degrees of the polynomials that are tried.
+const DEGREES: [u32; 4] = [1, 3, 6, 9];
+/// More coefficients are not looked for.
+const MOST: usize = 120;
+/// So many choices of values for parameters are tried.
+const CHOICES: i64 = 2;
+
+/// A condition with the values of the variables that are constant where it holds.
+struct Holds {
+    what: String,
+    residual: Expr,
+    at: Vec<(usize, Rational)>,
+    is_imposed: bool,
+}
+
+/// A linear condition: what it is without fields, and the factors of their jets.
+struct Linear {
+    constant: Polynomial,
+    factors: Vec<(Jet, Polynomial)>,
+}
+
+/// Polynomials by component.
+type Fields = BTreeMap<usize, Polynomial>;
+
+/// Two systems with numbers for parameters.
+struct Search<'f> {
+    functional: &'f Functional,
+    values: Vec<(Symbol, Rational)>,
+    systems: [Vec<Holds>; 2],
+}
+
+/// A refutation of the equivalence of what is derived and what is stated, by fields that satisfy the one and not the other.
+pub(super) fn separated(functional: &Functional, own: &Variation) -> Option<Verdict> {
+    let space = &*functional.space;
+    let assumed = space.assumptions();
+    let of_fields = |e: Expr| !space.jets_in(&[e]).is_empty();
+    let mut all = assumed.list().iter();
+    // Fields would have to keep to what is assumed of them.
+    if all.any(|own| of_fields(own.left) || of_fields(own.right)) {
+        return None;
+    }
+    let is_curved = |piece: &Piece| piece.side == Side::Curved;
+    if !functional.pieces.iter().any(is_curved) {
+        return searched(functional, own);
+    }
+    let (placed, _) = on_box(functional, &unit_box(functional))?;
+    let own = variation(&placed).ok()?;
+    searched(&placed, &own)
+}
+
+/// The unit box, its faces shared out among the pieces.
+fn unit_box(functional: &Functional) -> Solution {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let places = space.coordinates.iter().enumerate();
+    let axes: Vec<usize> = places.filter(|(_, c)| !c.is_time).map(|(i, _)| i).collect();
+    let sides = axes.iter().flat_map(|&axis| {
+        [false, true].map(|is_upper| Side::Flat {
+            axis,
+            is_upper,
+            at: if is_upper { g.one() } else { g.zero() },
+        })
+    });
+    let names = functional.pieces.iter().map(|piece| piece.name.clone());
+    let pieces = names.cycle().zip(sides).collect();
+    let intervals = axes.iter().map(|&axis| Interval {
+        axis,
+        lower: g.zero(),
+        upper: g.one(),
+    });
+    Solution {
+        name: String::new(),
+        description: String::new(),
+        parameters: Vec::new(),
+        values: Vec::new(),
+        intervals: intervals.collect(),
+        pieces,
+        has_pieces: true,
+        value: None,
+    }
+}
+
+fn searched(functional: &Functional, own: &Variation) -> Option<Verdict> {
+    (0..CHOICES).find_map(|choice| {
+        let values = values(functional, choice)?;
+        let search = Search::new(functional, own, values)?;
+        let both = [
+            (System::Derived, System::Stated),
+            (System::Stated, System::Derived),
+        ];
+        both.into_iter()
+            .find_map(|(one, other)| search.separating(one, other))
+    })
+}
+
+/// Numbers for the parameters that have no value, with which what is assumed of them holds.
+fn values(functional: &Functional, choice: i64) -> Option<Vec<(Symbol, Rational)>> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let mut symbols = BTreeSet::new();
+    let densities = functional.pieces.iter().map(|piece| piece.density);
+    let residuals = functional
+        .equations
+        .iter()
+        .flat_map(|e| e.residuals.clone());
+    let all: Vec<Expr> = densities
+        .chain(residuals)
+        .chain([functional.density])
+        .map(|e| space.explicit(e))
+        .collect();
+    for symbol in space.symbols_in(&all) {
+        let is_place = |c: &crate::space::Coordinate| g.as_symbol(c.expr) == Some(symbol);
+        let is_known = space.as_jet(symbol).is_some()
+            || space.coordinates.iter().any(is_place)
+            || space.normals().contains(&symbol);
+        if !is_known {
+            symbols.insert(symbol);
+        }
+    }
+    let number = |k: usize| rational::ratio(2 * k as i64 + 3 + choice, 2 * choice + 2);
+    let values = symbols.into_iter().enumerate();
+    let values = values.map(|(k, symbol)| Some((symbol, number(k)?)));
+    let values: Vec<(Symbol, Rational)> = values.collect::<Option<_>>()?;
+    let put = |e: Expr| with(functional, &values, e);
+    let assumed = space.assumptions();
+    let mut all = assumed.list().iter();
+    let is_violated = all.any(|own| {
+        let difference = put(g.sub(own.left, own.right));
+        is_contradicted(own.relation, known_sign(g, difference, &Default::default()))
+    });
+    (!is_violated).then_some(values)
+}
+
+fn with(functional: &Functional, values: &[(Symbol, Rational)], e: Expr) -> Expr {
+    let space = &*functional.space;
+    let known = functional.values();
+    let stated = |symbol: Symbol| {
+        let own = space.graph.symbol_expr(symbol);
+        known.iter().find(|(l, _)| *l == own).map(|(_, r)| *r)
+    };
+    let e = space.replace(space.explicit(e), &stated);
+    space.replace(e, &|symbol| {
+        let own = values.iter().find(|(own, _)| *own == symbol)?;
+        Some(space.graph.number(own.1.clone()))
+    })
+}
+
+impl<'f> Search<'f> {
+    fn new(
+        functional: &'f Functional,
+        own: &Variation,
+        values: Vec<(Symbol, Rational)>,
+    ) -> Option<Search<'f>> {
+        let mut search = Search {
+            functional,
+            values,
+            systems: Default::default(),
+        };
+        let mut derived = search.stated(Role::Imposed)?;
+        let mut stated = search.stated(Role::Imposed)?;
+        derived.extend(search.derived(own)?);
+        stated.extend(search.stated(Role::Yielded)?);
+        search.systems = [derived, stated];
+        Some(search)
+    }
+
+    fn number(&self, e: Expr) -> Option<Rational> {
+        let g = &self.functional.space.graph;
+        g.as_number(with(self.functional, &self.values, e)).cloned()
+    }
+
+    /// Where a piece lies, or where two meet.
+    fn place(&self, on: Option<&str>) -> Option<Vec<(usize, Rational)>> {
+        let names = on.into_iter().flat_map(|on| on.split(','));
+        let at = names.map(|name| match &self.functional.piece(name.trim())?.side {
+            Side::Flat { axis, at, .. } => Some((*axis, self.number(*at)?)),
+            Side::Curved => None,
+        });
+        at.collect()
+    }
+
+    /// A condition with the normal of the piece.
+    fn on(&self, on: Option<&str>, e: Expr) -> Expr {
+        let names = on.into_iter().flat_map(|on| on.split(','));
+        let pieces = names.filter_map(|name| self.functional.piece(name.trim()));
+        pieces.fold(e, |e, piece| {
+            on_side(&self.functional.scope, &piece.side, e)
+        })
+    }
+
+    fn stated(&self, role: Role) -> Option<Vec<Holds>> {
+        let mut found = Vec::new();
+        for equation in self.functional.with_role(role) {
+            for &residual in &equation.residuals {
+                let on = equation.on.as_deref();
+                found.push(Holds {
+                    what: format!("the stated equation ({})", equation.label),
+                    residual: self.on(on, residual),
+                    at: self.place(on)?,
+                    is_imposed: role == Role::Imposed,
+                });
+            }
+        }
+        Some(found)
+    }
+
+    fn derived(&self, own: &Variation) -> Option<Vec<Holds>> {
+        let name = |component: usize| self.functional.space.component_at(component).name;
+        let mut found = Vec::new();
+        let mut add = |what: String, residual: Expr, on: Option<&str>| {
+            found.push(Holds {
+                what,
+                residual: self.on(on, residual),
+                at: self.place(on)?,
+                is_imposed: false,
+            });
+            Some(())
+        };
+        for (component, e) in &own.euler {
+            add(
+                format!("the Euler equation of {}", name(*component)),
+                *e,
+                None,
+            )?;
+        }
+        for piece in &own.pieces {
+            for condition in &piece.conditions {
+                let what = format!(
+                    "the natural condition of {} on {}",
+                    name(condition.component),
+                    piece.piece
+                );
+                add(what, condition.value, Some(&piece.piece))?;
+            }
+        }
+        for corner in &own.corners {
+            let on = format!("{}, {}", corner.pieces.0, corner.pieces.1);
+            let what = format!(
+                "the condition of {} where {} and {} meet",
+                name(corner.component),
+                corner.pieces.0,
+                corner.pieces.1
+            );
+            add(what, corner.value, Some(&on))?;
+        }
+        Some(found)
+    }
+
+    fn system(&self, system: System) -> &[Holds] {
+        match system {
+            System::Derived => &self.systems[0],
+            System::Stated => &self.systems[1],
+        }
+    }
+
+    /// Fields that satisfy one system and not the other.
+    fn separating(&self, one: System, other: System) -> Option<Verdict> {
+        let all = self.system(one);
+        let violated = self.system(other).iter().filter(|own| !own.is_imposed);
+        let violated: Vec<&Holds> = violated.collect();
+        DEGREES.iter().find_map(|&degree| {
+            let fields = self.fields_of(all, degree)?;
+            violated.iter().find_map(|own| {
+                let value = self.value(own, &fields)?;
+                (!value.is_zero()).then(|| self.refuted(own, one, &fields, &value))
+            })
+        })
+    }
+
+    /// Polynomials with which a system holds: of data alone, with fields that vanish, where it is not linear in the fields.
+    fn fields_of(&self, all: &[Holds], degree: u32) -> Option<Fields> {
+        let space = &*self.functional.space;
+        let residuals: Vec<Expr> = all.iter().map(|own| own.residual).collect();
+        let residuals: Vec<Expr> = residuals
+            .iter()
+            .map(|&e| with(self.functional, &self.values, e))
+            .collect();
+        let jets = space.jets_in(&residuals);
+        let components: BTreeSet<usize> = jets.iter().map(|jet| jet.component).collect();
+        let interior: BTreeSet<usize> = self
+            .functional
+            .interior()
+            .flat_map(|field| field.components.clone())
+            .collect();
+        let nothing = Fields::new();
+        let at_rest: Fields = interior
+            .iter()
+            .map(|&component| (component, Polynomial::default()))
+            .collect();
+        [nothing, at_rest].into_iter().find_map(|known| {
+            let open = components.iter().filter(|own| !known.contains_key(own));
+            let open: Vec<usize> = open.copied().collect();
+            self.solved(all, (&open, degree), known)
+        })
+    }
+
+    fn solved(
+        &self,
+        all: &[Holds],
+        (open, degree): (&[usize], u32),
+        known: Fields,
+    ) -> Option<Fields> {
+        let space = &*self.functional.space;
+        let d = space.coordinates.len();
+        let base = monomials(d, degree);
+        if open.len() * base.len() > MOST {
+            return None;
+        }
+        let mut rows: Vec<(BTreeMap<usize, Rational>, Rational)> = Vec::new();
+        for own in all {
+            let linear = self.linear(own, &known)?;
+            let mut found: BTreeMap<Vec<u32>, (BTreeMap<usize, Rational>, Rational)> =
+                BTreeMap::new();
+            for (exponents, value) in linear.constant.at(&own.at).terms() {
+                found.entry(exponents.to_vec()).or_default().1 = -value.clone();
+            }
+            for (jet, factor) in &linear.factors {
+                let place = open.iter().position(|own| *own == jet.component)?;
+                for (number, monomial) in base.iter().enumerate() {
+                    let term = factor.times(&monomial.slopes(&jet.by)).at(&own.at);
+                    for (exponents, value) in term.terms() {
+                        let row = &mut found.entry(exponents.to_vec()).or_default().0;
+                        let entry = row.entry(place * base.len() + number);
+                        let entry = entry.or_insert(Rational::ZERO);
+                        *entry = rational::sum(entry, value);
+                    }
+                }
+            }
+            rows.extend(found.into_values());
+        }
+        let values = linear::some_solution(open.len() * base.len(), rows)?;
+        let mut fields = known;
+        for (place, &component) in open.iter().enumerate() {
+            let mut sum = Polynomial::default();
+            for (number, monomial) in base.iter().enumerate() {
+                sum.add(monomial, &values[place * base.len() + number]);
+            }
+            fields.insert(component, sum);
+        }
+        Some(fields)
+    }
+
+    /// A condition as a linear one in the fields that are not known; `None` where it is not linear with polynomials for factors.
+    fn linear(&self, own: &Holds, known: &Fields) -> Option<Linear> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let put = |symbol: Symbol| {
+            let jet = space.as_jet(symbol)?;
+            let value = known.get(&jet.component)?;
+            Some(value.slopes(&jet.by).expr(space))
+        };
+        let e = space.replace(with(self.functional, &self.values, own.residual), &put);
+        let zero = |e: Expr| space.replace(e, &|symbol| space.as_jet(symbol).map(|_| g.zero()));
+        let mut factors = Vec::new();
+        for jet in space.jets_in(&[e]) {
+            let slope = space.partial(e, &jet);
+            if !space.jets_in(&[slope]).is_empty() {
+                return None;
+            }
+            factors.push((jet, Polynomial::of(space, slope)?));
+        }
+        Some(Linear {
+            constant: Polynomial::of(space, zero(e))?,
+            factors,
+        })
+    }
+
+    /// What a condition is for some fields, those that are not among them being zero.
+    fn value(&self, own: &Holds, fields: &Fields) -> Option<Polynomial> {
+        let space = &*self.functional.space;
+        let e = with(self.functional, &self.values, own.residual);
+        let e = space.replace(e, &|symbol| {
+            let jet = space.as_jet(symbol)?;
+            Some(match fields.get(&jet.component) {
+                Some(value) => value.slopes(&jet.by).expr(space),
+                None => space.graph.zero(),
+            })
+        });
+        Some(Polynomial::of(space, e)?.at(&own.at))
+    }
+
+    fn refuted(&self, own: &Holds, one: System, fields: &Fields, value: &Polynomial) -> Verdict {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let shown = fields.iter().map(|(&component, polynomial)| {
+            let name = space.component_at(component).name;
+            format!("{name} = {}", g.text(polynomial.expr(space)))
+        });
+        let shown: Vec<String> = shown.collect();
+        let system = match one {
+            System::Derived => "the Euler equations and natural conditions",
+            System::Stated => "what is stated",
+        };
+        let parameters = self.values.iter().map(|(symbol, value)| PointValue {
+            name: g.symbol_name(*symbol).to_owned(),
+            exact: Some(value.clone()),
+            enclosure: None,
+        });
+        let place: Vec<Rational> = place_of(value, space.coordinates.len());
+        let coordinates = space
+            .coordinates
+            .iter()
+            .zip(&place)
+            .map(|(c, x)| PointValue {
+                name: c.name.clone(),
+                exact: Some(x.clone()),
+                enclosure: None,
+            });
+        let residual = rational::to_f64(&value.exact(&place)).to_string();
+        let of = match self.values.is_empty() {
+            true => String::new(),
+            false => " with the values stated of the parameters".to_owned(),
+        };
+        Verdict::Refuted(Counterexample {
+            detail: format!(
+                "{} does not follow from the other system: {}{of} satisfy {system} everywhere, and its residual for them is {}",
+                own.what,
+                shown.join(", "),
+                g.text(value.expr(space))
+            ),
+            quantity: own.what.clone(),
+            residual: (residual.clone(), residual),
+            point: parameters.chain(coordinates).collect(),
+        })
+    }
+}
+
+/// A place where a polynomial that is not zero does not vanish.
+fn place_of(value: &Polynomial, d: usize) -> Vec<Rational> {
+    let at = |k: i64| {
+        let along = |i: usize| rational::ratio(1 + k % (2 + i as i64), 2 + k + i as i64);
+        let place: Option<Vec<Rational>> = (0..d).map(along).collect();
+        place.unwrap_or_default()
+    };
+    let mut all = (0..64).map(at);
+    let found = all.find(|place| value.exact(place) != Rational::ZERO);
+    found.unwrap_or_else(|| at(0))
+}
+
+/// All products of powers up to a degree.
+fn monomials(d: usize, degree: u32) -> Vec<Polynomial> {
+    let mut all: Vec<Vec<u32>> = vec![Vec::new()];
+    for _ in 0..d {
+        let longer = all.into_iter().flat_map(|own| {
+            let used: u32 = own.iter().sum();
+            (0..=degree - used).map(move |n| [own.clone(), vec![n]].concat())
+        });
+        all = longer.collect();
+    }
+    all.into_iter()
+        .map(|own| Polynomial::monomial(own, rational::integer(1)))
+        .collect()
+}

@@ -1,0 +1,177 @@
+//! Systems of equations with their conditions as wholes: what does not follow at one place may follow from conditions at several, and what
+//! is divided by may vanish where conditions are.
+
+use crate::table::{decided, studied_text};
+
+/// The verdict on a functional of some fields on [0, 1] or on the unit square; an equation on a piece is `on: equation`.
+fn euler(
+    density: &str,
+    faces: &[(&str, &str)],
+    imposed: &[&str],
+    stated: &[&str],
+) -> (String, String) {
+    let is_plane = faces.iter().any(|(face, _)| face.starts_with('y'));
+    let (coordinates, intervals) = match is_plane {
+        true => ("\"x\", \"y\"", "x = [0, 1], y = [0, 1]"),
+        false => ("\"x\"", "x = [0, 1]"),
+    };
+    let fields: Vec<String> = ["u", "v", "p"]
+        .iter()
+        .filter(|field| {
+            stated
+                .iter()
+                .chain([&density])
+                .any(|text| text.contains(**field))
+        })
+        .map(|field| format!("{field} = \"scalar\"\n"))
+        .collect();
+    let boundary: Vec<String> = faces
+        .iter()
+        .map(|(face, density)| match density.is_empty() {
+            true => format!("\"{face}\" = {{ fixed = [\"u\"] }}\n"),
+            false => format!("\"{face}\" = \"{density}\"\n"),
+        })
+        .collect();
+    let names = |mark: &str, list: &[&str]| {
+        let all = (0..list.len()).map(|i| format!("\"{mark}{i}\""));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    let equation = |mark: &str, (i, text): (usize, &&str)| match text.split_once(": ") {
+        Some((on, text)) => format!("{mark}{i} = {{ equation = \"{text}\", on = \"{on}\" }}\n"),
+        None => format!("{mark}{i} = \"{text}\"\n"),
+    };
+    let equations: Vec<String> = [("i", imposed), ("s", stated)]
+        .into_iter()
+        .flat_map(|(mark, list)| list.iter().enumerate().map(move |own| equation(mark, own)))
+        .collect();
+    let text = format!(
+        "kind = \"functional\"\nname = \"m\"\ndensity = \"{density}\"\nimposed = [{}]\nyields = [{}]\n[domain]\n\
+         coordinates = [{coordinates}]\nintervals = {{ {intervals} }}\n[fields]\n{}[boundary]\n{}[equations]\n{}",
+        names("i", imposed),
+        names("s", stated),
+        fields.concat(),
+        boundary.concat(),
+        equations.concat()
+    );
+    let study = studied_text("p4p", &text, &[]);
+    let verdict = decided(&study, "functional.euler");
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+const FREE: [(&str, &str); 2] = [("x = 0", "0"), ("x = 1", "0")];
+const HELD: [(&str, &str); 2] = [("x = 0", ""), ("x = 1", "0")];
+const SQUARE: [(&str, &str); 4] = [
+    ("x = 0", "0"),
+    ("x = 1", "0"),
+    ("y = 0", "0"),
+    ("y = 1", "0"),
+];
+
+/// x u' = u has u = x besides zero, and u u' = x has u = −x besides x: a quotient with something below that vanishes at an end says nothing
+/// there.
+#[test]
+fn nothing_is_carried_from_an_end_where_the_equations_are_singular() {
+    let conditions = ["x = 1: p = 0"];
+    for (density, faces, imposed, inside) in [
+        ("p (x u,x - u)", FREE, &[][..], ["u = 0", "x p,x + 2 p = 0"]),
+        (
+            "p (x u,x - u)",
+            HELD,
+            &["x = 0: u = 0"][..],
+            ["u = 0", "x p,x + 2 p = 0"],
+        ),
+        (
+            "p (u u,x - x)",
+            HELD,
+            &["x = 0: u = 0"][..],
+            ["u = x", "x p,x = 0"],
+        ),
+        (
+            "p (u u,x - u)",
+            HELD,
+            &["x = 0: u = 0"][..],
+            ["u = x", "x p,x + p = 0"],
+        ),
+    ] {
+        let stated: Vec<&str> = inside.iter().chain(&conditions).copied().collect();
+        let (word, detail) = euler(density, &faces, imposed, &stated);
+        assert_ne!(word, "proved", "{density}: {detail}");
+    }
+    // Where the factor does not vanish the same is true.
+    let (word, detail) = euler(
+        "p ((1 + x) u,x - u)",
+        &HELD,
+        &["x = 0: u = 0"],
+        &["u = 0", "p = 0"],
+    );
+    assert_eq!(word, "proved", "{detail}");
+}
+
+/// Each of these systems has one solution, or those that are stated, by what its ends enforce together: no jet refutes them.
+#[test]
+fn what_conditions_enforce_together_is_not_refuted() {
+    let at_rest = ["x = 0: u = 0", "x = 1: u = 0"];
+    for (density, faces, imposed, stated) in [
+        (
+            "1/2 u,x^2 - u",
+            HELD,
+            &["x = 0: u = 0"][..],
+            &["u = x - x^2/2"][..],
+        ),
+        ("1/2 u,x^2 - u", HELD, &[], &["u,xx = -1", "x = 0: u,x = 1"]),
+        (
+            "p u u,x",
+            HELD,
+            &["x = 0: u = 0"],
+            &["u = 0", "p u,x - (p u),x = 0"],
+        ),
+        (
+            "x/2 u,x^2",
+            [("x = 0", "0"), ("x = 1", "")],
+            &[],
+            &["u,x = 0"],
+        ),
+        (
+            "1/2 u,x^2",
+            [("x = 0", "1/4 u^4 - 1/2 u^2"), ("x = 1", "0")],
+            &[],
+            &["u^3 = u"],
+        ),
+        (
+            "1/2 u,x^2 + 1/2 v,x^2 + 1/2 u^2 + v^2 + u v",
+            FREE,
+            &[],
+            &["u = 0", "v = 0"],
+        ),
+    ] {
+        let (word, detail) = euler(density, &faces, imposed, stated);
+        assert_ne!(word, "refuted", "{density}: {detail}");
+    }
+    for (density, imposed, stated) in [
+        ("1/2 u,i u,i + u^2", &[][..], &["u = 0"][..]),
+        ("1/2 u,i u,i", &at_rest[..], &["u = 0"]),
+        ("1/2 u,i u,i", &[], &["u,x = 0", "u,y = 0"]),
+    ] {
+        let (word, detail) = euler(density, &SQUARE, imposed, stated);
+        assert_ne!(word, "refuted", "{density}: {detail}");
+    }
+}
+
+/// What is false of the systems is refuted by polynomials that satisfy one of them, in the body and at its ends.
+#[test]
+fn polynomials_that_satisfy_one_system_alone_refute() {
+    for (density, faces, imposed, stated) in [
+        ("1/2 u,x^2", FREE, &[][..], &["u = 0"][..]),
+        ("1/2 u,x^2 - u", HELD, &["x = 0: u = 0"], &["u = x + x^2/2"]),
+        ("1/2 u,xx^2", FREE, &[], &["u,x = 0"]),
+        ("1/2 u,x^2", FREE, &[], &["u,xx = 0", "x = 0: u,x = 1"]),
+    ] {
+        let (word, detail) = euler(density, &faces, imposed, stated);
+        assert_eq!(word, "refuted", "{density}: {detail}");
+        // Of what is stated without conditions any jet is that of a solution.
+        let is_local = detail.contains("the Euler equation");
+        assert!(is_local || detail.contains("u = "), "{detail}");
+    }
+    let (word, detail) = euler("1/2 u,i u,i", &SQUARE, &[], &["u,ii = 0", "x = 1: u = 0"]);
+    assert_eq!(word, "refuted", "{detail}");
+}
