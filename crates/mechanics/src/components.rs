@@ -4,11 +4,9 @@
 //! another factor vanishes, the equation says nothing of it.
 
 mod distinct;
-mod of_state;
 mod together;
 
 pub use self::distinct::{distinct, of_start};
-pub use self::of_state::{Factor, Other};
 
 use self::together::{covered_by_choice, on_affine};
 use crate::constraint::{Constraint, ConstraintKind};

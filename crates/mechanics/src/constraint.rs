@@ -52,6 +52,19 @@ pub struct Constraint {
     pub gradient_constant: bool,
 }
 
+impl System {
+    /// The system with another function in the place of that which a constraint keeps at zero; `None` where it is of another order.
+    pub fn with_constraint(&self, number: usize, function: Expr) -> Option<System> {
+        let (mut system, stated) = (self.clone(), self.constraints.get(number)?);
+        let own = Constraint::classify(self, stated.name.clone(), function).ok()?;
+        if own.order != stated.order {
+            return None;
+        }
+        system.constraints[number] = own;
+        Some(system)
+    }
+}
+
 impl Constraint {
     /// Classifies `stated = 0` in `system`.
     ///

@@ -8,6 +8,7 @@
 
 use crate::chart::{self, Floor};
 use crate::crossing::Crossing;
+use crate::factors::{on_another, on_component, Factor, Other};
 use crate::follow::magnitude;
 use crate::functions::FunctionsError;
 use crate::happening::EventWatched;
@@ -17,7 +18,6 @@ use crate::observe::Observer;
 use crate::run::{add, Run, RunError, RunSettings, Subject, Watcher};
 use crate::stop;
 use chetaev_integrate::{Direction, Note};
-use chetaev_mechanics::components::{Factor, Other};
 use chetaev_mechanics::{words, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::factors::quotient;
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
@@ -50,7 +50,7 @@ impl Component {
             return None;
         }
         let vanishes = |e: Expr| vanishes(subject, e);
-        let (system, factors) = subject.system.on_component_of(&vanishes)?;
+        let (system, factors) = on_component(subject.system, &vanishes)?;
         let (terms, mut numeric) = numeric(&system, subject.binding)?;
         let start = subject.start;
         numeric.evaluate(start.t, &start.q, &start.v).ok()?;
@@ -250,7 +250,7 @@ impl Subject<'_> {
             self.system.clone()
         } else if is_same(met.other.function) {
             let other = met.other.function;
-            let (system, factor) = self.system.on_other_component(met.factor, other)?;
+            let (system, factor) = on_another(self.system, met.factor, other)?;
             let mut all = factors.iter_mut();
             let place = all.find(|own| own.constraint == factor.constraint)?;
             *place = factor;

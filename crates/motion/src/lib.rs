@@ -19,6 +19,7 @@ pub mod crossing;
 pub mod dense;
 pub mod double_double;
 pub mod drift;
+pub mod factors;
 pub mod follow;
 pub mod formulation_flow;
 pub mod functions;

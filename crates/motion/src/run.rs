@@ -3,6 +3,7 @@
 use crate::course::{Course, Pieces};
 use crate::crossing::{self, Crossing, State, Track};
 use crate::double_double::{Precise, PreciseRows};
+use crate::factors::Factor;
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
 use crate::happening::{self, EventWatched, Happened};
@@ -25,7 +26,6 @@ use chetaev_integrate::{
 };
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::REFERENCE;
-use chetaev_mechanics::components::Factor;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
@@ -344,7 +344,7 @@ pub struct Subject<'a> {
     pub numeric: &'a NumericSystem,
     /// Where to start.
     pub start: &'a ConsistentState,
-    /// The factors in the place of constraints that are products, on a component of them ([`Component`](crate::component::Component)).
+    /// The factors in the place of constraints that are products, on a component of them.
     pub factors: &'a [Factor],
 }
 

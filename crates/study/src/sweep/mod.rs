@@ -23,6 +23,7 @@ use chetaev_ensemble::{Columns, Routh, Work};
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{formulation, Context, Formulation, Prepared, Prover, System};
 use chetaev_model::model::{InitialValue, Model};
+use chetaev_motion::factors::has_components;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, CompiledRouth, ConsistentState, InitialData, NumericSystem, RunError, RunSettings,
@@ -160,7 +161,7 @@ impl Sweep {
             stated: stated.initial.values.keys().copied().collect(),
         };
         // On components of constraints each run has equations of its own.
-        let is_routh = formulation.card().name == REFERENCE && !sweep.system.has_components();
+        let is_routh = formulation.card().name == REFERENCE && !has_components(&sweep.system);
         if is_routh && sweep.prepared.terms.order == 1 && sweep.recipe.is_some() {
             sweep.compiled = Some(sweep.subject().compile_routh(&sweep.settings)?);
         }

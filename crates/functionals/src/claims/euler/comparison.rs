@@ -1,7 +1,6 @@
 //! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
 //! and where pieces meet.
 
-use super::extension::System;
 use crate::elimination::{Entries, Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
 use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Variation};
@@ -9,6 +8,15 @@ use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Which of the two systems that are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum System {
+    /// What is imposed, and what follows from the first variation.
+    Derived,
+    /// What is imposed, and what is stated.
+    Stated,
+}
 
 /// The two systems, solved.
 pub(super) struct Comparison<'f> {

@@ -6,22 +6,13 @@
 //! without data (an end that is free, or on a spring) hold for few fields, and together they may enforce what no equation says at
 //! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
 
-use super::comparison::{groups, Comparison};
+use super::comparison::{groups, Comparison, System};
 use crate::elimination::Solved;
 use crate::functional::{Piece, Role};
 use crate::smoothness::Region;
 use chetaev_symbolic::zero::assumptions::Relation;
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
-
-/// Which of the two systems that are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum System {
-    /// What is imposed, and what follows from the first variation.
-    Derived,
-    /// What is imposed, and what is stated.
-    Stated,
-}
 
 /// What an expression depends on that may be chosen at will.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

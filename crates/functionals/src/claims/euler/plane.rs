@@ -4,8 +4,7 @@
 //! constant and the curvature vanishes, so that all is short, and what is false there is false.
 
 use super::super::on_box::{equation_on, piece_on};
-use super::comparison::{refuted, Comparison, Plane};
-use super::extension::System;
+use super::comparison::{refuted, Comparison, Plane, System};
 use crate::functional::{Functional, Piece, Side};
 use crate::variation::{variation, OnPiece, Variation};
 use chetaev_symbolic::Verdict;

@@ -4,7 +4,7 @@
 //! taken to be a box.
 
 use super::super::on_box::on_box;
-use super::extension::System;
+use super::comparison::System;
 use crate::functional::{Functional, Interval, Piece, Role, Side, Solution};
 use crate::linear;
 use crate::polynomial::Polynomial;
