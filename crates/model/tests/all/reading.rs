@@ -447,3 +447,23 @@ fn constants_are_read_with_the_parameters_of_the_model() {
         assert!(problem.contains(words), "{wrong}: {problem}");
     }
 }
+
+#[test]
+fn crossings_are_equations() {
+    let with = |crossings: &str| {
+        let text = format!("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2 + y'^2\"\n[simulation]\nt_end = 1\ncrossings = {crossings}\n");
+        load("model.toml", &text, &NoFiles, &[])
+    };
+    let loaded = with("[\"y = x^2\", \"x' + y' = 0\"]");
+    let model = loaded
+        .model
+        .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+    let g = &model.graph;
+    let crossings = model.simulation.crossings.iter();
+    let read: Vec<(&str, String)> = crossings.map(|(t, e)| (t.as_str(), g.text(*e))).collect();
+    let expected = [("y = x^2", "y - x^2"), ("x' + y' = 0", "x' + y'")];
+    assert_eq!(read, expected.map(|(t, e)| (t, e.to_owned())));
+    for wrong in ["[\"y\"]", "[\"y < x\"]", "\"y = x\"", "[1]", "[\"y = w\"]"] {
+        assert!(with(wrong).model.is_none(), "{wrong}");
+    }
+}
