@@ -155,6 +155,7 @@ pub fn again(study: &Study, times: Vec<f64>) -> Result<Run, String> {
         binding: &motion.binding,
         numeric: &numeric,
         start: &motion.start,
+        factors: &[],
     };
     let settings = RunSettings {
         t_end: times.last().copied().unwrap_or(motion.settings.t_end),

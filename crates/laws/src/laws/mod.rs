@@ -155,7 +155,6 @@ impl<'a> Subject<'a> {
             maggi: derive(cx, "maggi")?,
             chart: formulation::basis(cx).characteristics()?,
             sampled,
-            factors: &[],
         })
     }
 
