@@ -101,6 +101,11 @@ impl Component {
         }
     }
 
+    /// The system on it, with its terms and selection.
+    pub fn into_system(self) -> (System, MotionTerms, Selection) {
+        (self.system, self.terms, self.selection)
+    }
+
     /// What is said of it: the component by constraint.
     pub fn in_words(&self) -> String {
         let g = &self.system.graph;

@@ -30,7 +30,7 @@ pub enum OrbitError {
     #[error(transparent)]
     Integrate(#[from] IntegrateError),
     /// The run ended early.
-    #[error("the motion ends at t = {t} before t = {end}: {stop:?}")]
+    #[error("the motion ends at t = {t} before t = {end}: {}", why(stop))]
     EndsEarly {
         /// Where it ended.
         t: f64,
@@ -91,5 +91,22 @@ pub enum OrbitError {
 impl From<LinearizationError> for OrbitError {
     fn from(problem: LinearizationError) -> OrbitError {
         OrbitError::Closed(Box::new(problem))
+    }
+}
+
+/// Why a run ended, in words.
+fn why(stop: &Stop) -> String {
+    match stop {
+        Stop::Divergence { singularity, .. } => {
+            format!("a rate grows without bound towards t = {singularity}")
+        }
+        Stop::Singular { .. } | Stop::NotFinite { .. } => {
+            "the equations have no finite value there".to_owned()
+        }
+        Stop::StepTooSmall { .. } => {
+            "the tolerance cannot be met however short the step".to_owned()
+        }
+        Stop::Interrupted { .. } => "it was interrupted".to_owned(),
+        _ => "the equations could not be integrated further".to_owned(),
     }
 }

@@ -70,6 +70,9 @@ pub enum FollowError {
     /// The motion was not followed.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
+    /// A motion that goes on along other components of the constraints.
+    #[error("the linear equations are those along one component of the constraints; leave `crossings` out of [simulation], and end the run where components meet")]
+    Crossings,
     /// A step that is none.
     #[error("a step along the curve lies between 0 and 1, of which 1 is the whole range; {step} does not")]
     Step {

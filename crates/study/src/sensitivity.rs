@@ -10,7 +10,7 @@ use crate::options::StudyOptions;
 use crate::start;
 use crate::start::{initial_data, settings};
 use chetaev_integrate::Output;
-use chetaev_mechanics::System;
+use chetaev_mechanics::{Prepared, System};
 use chetaev_model::Model;
 use chetaev_orbits::along::{along, Along};
 use chetaev_orbits::flow::Coordinates;
@@ -19,6 +19,16 @@ use chetaev_orbits::variational::Order;
 use chetaev_orbits::Flow;
 use serde_json::{json, Value};
 use std::fmt::Write as _;
+
+/// The system of a model on the component of its constraints on which the motion starts.
+fn of_motion(model: &Model) -> Result<(System, Prepared), FollowError> {
+    let system = System::from_model(model)?;
+    let prepared = start::prepared(model, &system)?;
+    if !model.simulation.crossings.is_empty() {
+        return Err(FollowError::Crossings);
+    }
+    Ok(start::on_component(model, (system, prepared))?)
+}
 
 /// The sensitivities of the motion of a model to the parameters and initial values named in a text, separated by commas, at these times.
 ///
@@ -30,8 +40,7 @@ pub fn sensitivity(
     order: Order,
     times: &[f64],
 ) -> Result<Sensitivities, FollowError> {
-    let system = System::from_model(model)?;
-    let prepared = start::prepared(model, &system)?;
+    let (system, prepared) = of_motion(model)?;
     let data = initial_data(model, &system, &StudyOptions::default())?;
     let is_fixed = |s| {
         let place = |all: Vec<_>| all.iter().position(|own| *own == s);
@@ -87,8 +96,7 @@ const ROWS: f64 = 10.0;
 /// # Errors
 /// [`FollowError`].
 pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
-    let system = System::from_model(model)?;
-    let prepared = start::prepared(model, &system)?;
+    let (system, prepared) = of_motion(model)?;
     let point = initial(model, &system, &prepared)?;
     let options = StudyOptions::default();
     let t = initial_data(model, &system, &options)?.t;

@@ -9,11 +9,12 @@ use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{multiplicity, Basis, MotionTerms, Prepared, Selection, System};
 use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
+use chetaev_motion::factors::has_components;
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, EventWatched, InitialData, InitialError,
-    NumericSystem, RunSettings, StateKind,
+    consistent_state, Binding, Component, ConsistentState, EventWatched, InitialData, InitialError,
+    NumericSystem, RunSettings, StateKind, Subject,
 };
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
 use std::sync::Arc;
@@ -103,6 +104,42 @@ pub fn prepared(model: &Model, system: &System) -> Result<Prepared, Characterist
         }),
         _ => Err(problem),
     }
+}
+
+/// A system on the component of its constraints on which the motion of a model starts; as it is where no constraint is a product.
+///
+/// # Errors
+/// [`StudyError`] where something has no value, or no state satisfies the constraints.
+pub(crate) fn on_component(
+    model: &Model,
+    (system, prepared): (System, Prepared),
+) -> Result<(System, Prepared), StudyError> {
+    if !has_components(&system) {
+        return Ok((system, prepared));
+    }
+    let options = StudyOptions::default();
+    let Ok(found) = start_of_motion(model, &system, &prepared.terms, &options)? else {
+        return Ok((system, prepared));
+    };
+    let subject = Subject {
+        system: &system,
+        terms: &prepared.terms,
+        selection: &prepared.selection,
+        binding: &found.binding,
+        numeric: &found.numeric,
+        start: &found.start,
+        factors: &[],
+    };
+    let Some(component) = Component::of_start(&subject) else {
+        return Ok((system, prepared));
+    };
+    let (system, terms, selection) = component.into_system();
+    let prepared = Prepared {
+        terms,
+        selection,
+        ..prepared
+    };
+    Ok((system, prepared))
 }
 
 impl Start {
