@@ -446,6 +446,26 @@ impl<'s> Solved<'s> {
         found
     }
 
+    /// What the equations say beyond others: jets less their values, and what could not be solved.
+    pub fn beyond(&self, others: &Solved<'_>) -> Vec<Expr> {
+        let space = self.space;
+        let is_new = |rule: &&Rule| !others.rules.iter().any(|own| own.jet == rule.jet);
+        let equation = |rule: &Rule| {
+            let jet = space.jet(rule.jet.component, &rule.jet.by);
+            space.graph.sub(jet, self.normal(rule.value))
+        };
+        let known: BTreeSet<Expr> = others.open_equations().collect();
+        let left = self.open_equations().filter(|e| !known.contains(e));
+        let rules = self.rules.iter().filter(is_new).map(equation);
+        rules.chain(left).collect()
+    }
+
+    fn open_equations(&self) -> impl Iterator<Item = Expr> + '_ {
+        self.left
+            .iter()
+            .flat_map(|group| group.equations.iter().copied())
+    }
+
     /// A group that is left by its label, and what is left of it where that is short.
     pub fn named(&self, group: &Group) -> String {
         let texts = group.equations.iter().map(|&e| self.space.graph.text(e));

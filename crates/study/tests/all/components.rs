@@ -33,7 +33,8 @@ fn studied(model: Model) -> Study {
     study(model, options, &mut hooks).unwrap()
 }
 
-const ON_PARABOLA: &str = "x = \"1/3\"\ny = \"1/9\"\n\"x'\" = -3\n[simulation]\nt_end = 3\noutput = 30\n";
+const ON_PARABOLA: &str =
+    "x = \"1/3\"\ny = \"1/9\"\n\"x'\" = -3\n[simulation]\nt_end = 3\noutput = 30\n";
 
 /// A bead on a parabola that a line crosses moves as on the parabola alone, and so do motions next to it.
 #[test]

@@ -534,7 +534,7 @@ impl<'f> Comparison<'f> {
     }
 
     /// What holds on a piece because it is imposed or stated.
-    fn stated_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
+    pub(super) fn stated_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
         let name = Some(on.piece.as_str());
         let imposed = groups(self.functional, Role::Imposed, name);
         let here = self.stated.with_on(&piece.side, &imposed);
@@ -542,7 +542,7 @@ impl<'f> Comparison<'f> {
     }
 
     /// What holds on a piece because it is imposed or derived.
-    fn derived_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
+    pub(super) fn derived_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
         if let Some(known) = self.on_pieces.borrow().get(&on.piece) {
             return known.clone();
         }

@@ -6,9 +6,9 @@
 //! without data (an end that is free, or on a spring) hold for few fields, and together they may enforce what no equation says at
 //! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
 
-use super::comparison::{groups, Comparison, System};
+use super::comparison::{Comparison, System};
 use crate::elimination::Solved;
-use crate::functional::{Piece, Role};
+use crate::functional::Piece;
 use crate::smoothness::Region;
 use chetaev_symbolic::zero::assumptions::Relation;
 use chetaev_symbolic::{Expr, Symbol};
@@ -34,10 +34,7 @@ impl<'f> Comparison<'f> {
     /// Whether any jet at a place at which a system holds there is that of fields with which it holds everywhere, for some data; for
     /// expressions that are looked at there.
     pub(super) fn extends(&self, es: &[Expr], system: System, on: Option<&str>) -> bool {
-        let solved = match system {
-            System::Derived => &self.derived,
-            System::Stated => &self.stated,
-        };
+        let solved = self.inside(system);
         // What is left of the equations of the body may be differentiated across a piece, and was not there.
         let is_solved = on.is_none() || solved.left.is_empty();
         is_solved && self.is_regular(solved) && self.has_data(es, system, on)
@@ -61,14 +58,8 @@ impl<'f> Comparison<'f> {
         if let Some(known) = known.filter(|_| !is_line) {
             return known;
         }
-        let mut inside: Vec<Expr> = Vec::new();
-        let imposed = groups(functional, Role::Imposed, None).into_iter();
-        inside.extend(imposed.flat_map(|group| group.equations));
-        match system {
-            System::Derived => inside.extend(self.variation.euler.iter().map(|(_, e)| *e)),
-            System::Stated => inside.extend(self.residuals(None)),
-        }
-        inside.retain(|&e| !functional.space.vanishes(e));
+        let solved = self.inside(system);
+        let inside = solved.beyond(&Solved::new(&functional.space));
         let bound = |e: Expr, is_inside: bool| Bound {
             e,
             data: self.data_in(e),
@@ -80,7 +71,8 @@ impl<'f> Comparison<'f> {
         let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
         let is_continued = || {
             let pieces = functional.pieces.iter().filter(is_elsewhere);
-            let on_pieces = pieces.flat_map(|piece| self.conditions_on(piece, system));
+            let on_pieces = pieces.filter_map(|piece| self.on(piece, system));
+            let on_pieces = on_pieces.flat_map(|on| on.beyond(solved));
             let mut all = inside.clone();
             all.extend(on_pieces.map(|e| bound(e, false)));
             let left = self.without_data(all, &looked_at);
@@ -114,22 +106,21 @@ impl<'f> Comparison<'f> {
         open
     }
 
-    /// What holds on a piece besides the equations of the body.
-    fn conditions_on(&self, piece: &Piece, system: System) -> Vec<Expr> {
-        let name = Some(piece.name.as_str());
-        let imposed = groups(self.functional, Role::Imposed, name);
-        let mut found: Vec<Expr> = imposed.into_iter().flat_map(|own| own.equations).collect();
+    fn inside(&self, system: System) -> &Solved<'f> {
         match system {
-            System::Derived => {
-                let here = self.variation.pieces.iter();
-                let here = here.filter(|on| on.piece == piece.name);
-                found.extend(here.flat_map(|on| on.conditions.iter().map(|own| own.value)));
-            }
-            System::Stated => found.extend(self.residuals(name)),
+            System::Derived => &self.derived,
+            System::Stated => &self.stated,
         }
-        let space = &*self.functional.space;
-        found.retain(|&e| !space.vanishes(e));
-        found
+    }
+
+    /// What holds on a piece.
+    fn on(&self, piece: &Piece, system: System) -> Option<Solved<'f>> {
+        let mut all = self.variation.pieces.iter();
+        let on = all.find(|on| on.piece == piece.name)?;
+        Some(match system {
+            System::Derived => self.derived_on(on, piece),
+            System::Stated => self.stated_on(on, piece),
+        })
     }
 
     /// What an equation may be solved for: data and fields, and on a line parameters; not what the model assumes something of.
