@@ -21,6 +21,7 @@ use chetaev_integrate::{Direction, Note};
 use chetaev_mechanics::{words, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::factors::quotient;
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
+use std::collections::BTreeSet;
 
 /// A factor below this part of its terms vanishes at a start.
 const VANISHES: f64 = 1e-8;
@@ -28,6 +29,12 @@ const VANISHES: f64 = 1e-8;
 const MET: f64 = 1e-6;
 /// Where the rate of a factor is below this part of its largest value, the components touch.
 const TOUCHING: f64 = 1e-4;
+/// The part of the rest of a run in which a component that is left is not looked for.
+const LEAVING: f64 = 1e-3;
+/// So many events are looked for of each other component.
+const LOOKS: usize = 2;
+/// Rounding of a state, as a part of its natural size.
+const ROUNDED: f64 = 1e-13;
 /// So small a rate of a factor, over the length of the run, is that of a constant.
 const CONSTANT: f64 = 1e-9;
 
@@ -88,6 +95,32 @@ impl Component {
         }
     }
 
+    /// A system on a component, from the last state of a run on.
+    fn from_last(
+        system: System,
+        subject: &Subject<'_>,
+        run: &Run,
+        factors: Vec<Factor>,
+    ) -> Option<Component> {
+        let (terms, mut numeric) = numeric(&system, subject.binding)?;
+        let row = run.row(run.len().checked_sub(1)?);
+        // What is rounding beside the natural sizes is zero: else it would be taken for a size.
+        let sizes = run.scales.iter();
+        let state = row[..run.layout.v().end].iter().zip(sizes);
+        let state = state.map(|(&x, size)| if x.abs() <= ROUNDED * size { 0.0 } else { x });
+        let state: Vec<f64> = state.collect();
+        let data = InitialData {
+            t: *run.times.last()?,
+            q: state.get(run.layout.positions())?.to_vec(),
+            v: state.get(run.layout.v())?.to_vec(),
+            q_fixed: vec![false; numeric.n],
+            v_fixed: vec![false; numeric.n],
+            project: true,
+        };
+        let start = consistent_state(&mut numeric, &data).ok()?;
+        Some(Component::new(system, (terms, numeric), start, factors))
+    }
+
     /// The subject on the component.
     pub fn subject<'a>(&'a self, binding: &'a Binding) -> Subject<'a> {
         Subject {
@@ -140,6 +173,9 @@ fn vanishes(subject: &Subject<'_>, e: Expr) -> Option<bool> {
     Some(both[0].abs() <= VANISHES * both[1])
 }
 
+/// A component that is left: the number of the constraint, and the factor.
+type Left = (usize, Expr);
+
 /// Another component, and when the motion is met on it.
 struct Watched<'f> {
     constraint: &'f str,
@@ -156,14 +192,14 @@ impl Subject<'_> {
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
-        let (mut run, mut met) = self.up_to_meeting(formulation, (settings, false), watcher)?;
+        let (mut run, mut met) = self.up_to_meeting(formulation, (settings, None), watcher)?;
         let mut settings = settings.clone();
         let mut component: Option<Component> = None;
         for (text, chosen) in settings.crossings.clone() {
             let Some((t, place)) = met else { break };
             let subject = component.as_ref().map(|own| own.subject(self.binding));
-            let next = subject.as_ref().unwrap_or(self).beyond(&run, place, chosen);
-            let Some(next) = next else {
+            let subject = subject.as_ref().unwrap_or(self);
+            let Some((next, left)) = subject.beyond(&run, place, chosen) else {
                 let reason = format!(
                     "{}; `crossings` names `{text}` for this place, which is none of the two",
                     run.ending.reason
@@ -174,26 +210,113 @@ impl Subject<'_> {
             let is_later = |x: f64| if settings.t_end < t { x < t } else { x > t };
             settings.times.retain(|&x| is_later(x));
             let on = next.subject(self.binding);
-            let (part, further) = on.up_to_meeting(formulation, (&settings, true), watcher)?;
             let rank = on.selection.rows.len();
-            component = Some(next);
-            run.crossings.push(Crossing {
+            let crossing = Crossing {
                 t,
                 rank: (rank, rank.saturating_sub(1)),
                 onto: Some(text),
-            });
-            run.go_on(part);
-            met = further;
+            };
+            met = match on.met_at_start(left) {
+                Some(further) => {
+                    run.crossings.push(crossing);
+                    run.ending = stop::undetermined(on.reason(&on.others()[further], t), t);
+                    Some((t, further))
+                }
+                None => on.leave(
+                    formulation,
+                    (&settings, left),
+                    (&mut run, crossing),
+                    watcher,
+                )?,
+            };
+            component = Some(next);
         }
         Ok(run)
     }
 
+    /// Goes on from a place where two components meet: at first without looking for the one that is left, then as ever. Where the motion
+    /// meets another one again.
+    fn leave(
+        &self,
+        formulation: &'static dyn Formulation,
+        (settings, left): (&RunSettings, Left),
+        (run, crossing): (&mut Run, Crossing),
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Option<(f64, usize)>, RunError> {
+        let span = settings.t_end - self.start.t;
+        let near = self.start.t + LEAVING * span;
+        let is_near = |x: f64| (x - near) * span <= 0.0;
+        let mut first = settings.clone();
+        first.t_end = near;
+        first.times.retain(|&x| is_near(x));
+        first.times.push(near);
+        let (mut part, met) = self.up_to_meeting(formulation, (&first, Some(left)), watcher)?;
+        if let Some(place) = self.stays_on_both(&part)? {
+            let t = self.start.t;
+            let reason = format!(
+                "{}, and so do those that follow",
+                self.reason(&self.others()[place], t)
+            );
+            run.ending = stop::undetermined(reason, t);
+            return Ok(None);
+        }
+        let next = match part.ending.finished {
+            true => self.again(&part),
+            false => None,
+        };
+        part.ends_between |= !settings.times.contains(&near);
+        run.crossings.push(crossing);
+        run.go_on(part);
+        let Some(next) = next else {
+            return Ok(met);
+        };
+        let mut rest = settings.clone();
+        rest.times.retain(|&x| !is_near(x));
+        let on = next.subject(self.binding);
+        let (part, met) = on.up_to_meeting(formulation, (&rest, None), watcher)?;
+        run.go_on(part);
+        Ok(met)
+    }
+
+    /// The component from the last state of a run on.
+    fn again(&self, run: &Run) -> Option<Component> {
+        Component::from_last(self.system.clone(), self, run, self.factors.to_vec())
+    }
+
+    /// Another component, than the one that is left, on which the start lies.
+    fn met_at_start(&self, left: Left) -> Option<usize> {
+        self.others().iter().position(|met| {
+            let other = met.other;
+            let is_left = (met.factor.constraint, other.function) == left;
+            let lies_on = |e: Expr| vanishes(self, e) == Some(true);
+            !is_left && lies_on(other.function) && (!other.is_of_place || lies_on(other.rate))
+        })
+    }
+
+    /// Another component on which all states of a run lie.
+    fn stays_on_both(&self, run: &Run) -> Result<Option<usize>, FunctionsError> {
+        let (others, g) = (self.others(), &self.system.graph);
+        let sizes = |e: Expr| [e, magnitude(g, self.system.defined(e))];
+        let functions = others.iter().flat_map(|own| sizes(own.other.function));
+        let functions: Vec<Expr> = functions.collect();
+        let mut observer =
+            Observer::with_own(self.system, self.terms, self.binding, &run.own, &functions)?;
+        let rows: Vec<Vec<f64>> = (0..run.len())
+            .map(|j| observer.at(run.times[j], run.row(j)))
+            .collect();
+        let is_zero = |place: &usize| {
+            let mut all = rows.iter();
+            all.all(|row| row[2 * place].abs() <= VANISHES * row[2 * place + 1])
+        };
+        Ok((0..others.len()).find(is_zero))
+    }
+
     /// Integrates on one component up to where it meets another one, so that the motion is not determined, if it does: the time, and the
-    /// number of the other. A meeting at the start of a run that goes on is left behind.
+    /// number of the other. One that is left is not looked for.
     fn up_to_meeting(
         &self,
         formulation: &'static dyn Formulation,
-        (stated, goes_on): (&RunSettings, bool),
+        (stated, left): (&RunSettings, Option<Left>),
         watcher: &mut Watcher<'_>,
     ) -> Result<(Run, Option<(f64, usize)>), RunError> {
         let others = self.others();
@@ -201,14 +324,15 @@ impl Subject<'_> {
         self.state_on_factors(&mut settings.events);
         let own = settings.events.len();
         let span = settings.t_end - self.start.t;
-        let nearest = others.iter().map(|other| self.nearest(other.other, span));
-        settings.events.extend(nearest);
+        let others: Vec<Watched<'_>> = others
+            .into_iter()
+            .filter(|own| Some((own.factor.constraint, own.other.function)) != left)
+            .collect();
+        let looks = others
+            .iter()
+            .flat_map(|other| self.looks(other.other, span));
+        settings.events.extend(looks);
         let mut run = self.integrated(formulation, &settings, watcher)?;
-        if goes_on {
-            let is_left = |t: f64| (t - self.start.t).abs() > MET * span.abs();
-            run.events
-                .retain(|event| event.event < own || is_left(event.t));
-        }
         let met = self.met(&others, &run, own)?;
         settings.events.truncate(own);
         if let Some((t, place)) = met.ended {
@@ -225,23 +349,54 @@ impl Subject<'_> {
         run.events.retain(|event| event.event < own);
         run.notes
             .retain(|note| event_of(note).is_none_or(|event| event < own));
-        let rank = self.selection.rows.len();
-        let passed = met.passed.into_iter();
-        run.crossings.extend(passed.map(|t| Crossing {
-            t,
-            rank: (rank, rank.saturating_sub(1)),
-            onto: None,
-        }));
+        run.crossings
+            .extend(self.passages(&met.passed, &others, span));
         let forward = if span < 0.0 { -1.0 } else { 1.0 };
         run.crossings
             .sort_by(|a, b| (forward * a.t).total_cmp(&(forward * b.t)));
         self.state_multipliers(&mut run)?;
-        Ok((run, met.ended))
+        let of_all = |place: usize| {
+            let met = (
+                others[place].factor.constraint,
+                others[place].other.function,
+            );
+            let mut all = self.others().into_iter();
+            all.position(|own| (own.factor.constraint, own.other.function) == met)
+        };
+        let ended = met.ended.and_then(|(t, place)| Some((t, of_all(place)?)));
+        Ok((run, ended))
+    }
+
+    /// Passages of other components: the rank falls by one for each constraint that meets one at a time.
+    fn passages(
+        &self,
+        passed: &[(f64, usize)],
+        others: &[Watched<'_>],
+        span: f64,
+    ) -> Vec<Crossing> {
+        let rank = self.selection.rows.len();
+        let mut found: Vec<(f64, BTreeSet<usize>)> = Vec::new();
+        for &(t, place) in passed {
+            let constraint = others[place].factor.constraint;
+            let is_same = |own: &&mut (f64, _)| (own.0 - t).abs() <= CONSTANT * span.abs();
+            match found.iter_mut().find(is_same) {
+                Some((_, all)) => {
+                    all.insert(constraint);
+                }
+                None => found.push((t, BTreeSet::from([constraint]))),
+            }
+        }
+        let crossing = |(t, all): (f64, BTreeSet<usize>)| Crossing {
+            t,
+            rank: (rank, rank.saturating_sub(all.len())),
+            onto: None,
+        };
+        found.into_iter().map(crossing).collect()
     }
 
     /// The component on which a motion goes on from its last state, at which two meet: that on which this function vanishes. `None`
     /// where it is neither.
-    fn beyond(&self, run: &Run, place: usize, function: Expr) -> Option<Component> {
+    fn beyond(&self, run: &Run, place: usize, function: Expr) -> Option<(Component, Left)> {
         let others = self.others();
         let met = others.get(place)?;
         let g = &self.system.graph;
@@ -251,30 +406,23 @@ impl Subject<'_> {
             ratio.is_some_and(|ratio| g.is_free_of(ratio, &moves) && !g.is_zero(ratio))
         };
         let mut factors = self.factors.to_vec();
+        let number = met.factor.constraint;
+        let mut left = (number, met.other.function);
         let system = if is_same(met.factor.function) {
             self.system.clone()
         } else if is_same(met.other.function) {
             let other = met.other.function;
             let (system, factor) = on_another(self.system, met.factor, other)?;
             let mut all = factors.iter_mut();
-            let place = all.find(|own| own.constraint == factor.constraint)?;
+            let place = all.find(|own| own.constraint == number)?;
             *place = factor;
+            left = (number, met.factor.function);
             system
         } else {
             return None;
         };
-        let (terms, mut numeric) = numeric(&system, self.binding)?;
-        let row = run.row(run.len().checked_sub(1)?);
-        let data = InitialData {
-            t: *run.times.last()?,
-            q: row[run.layout.positions()].to_vec(),
-            v: row[run.layout.v()].to_vec(),
-            q_fixed: vec![false; numeric.n],
-            v_fixed: vec![false; numeric.n],
-            project: true,
-        };
-        let start = consistent_state(&mut numeric, &data).ok()?;
-        Some(Component::new(system, (terms, numeric), start, factors))
+        let next = Component::from_last(system, self, run, factors)?;
+        Some((next, left))
     }
 
     fn others(&self) -> Vec<Watched<'_>> {
@@ -288,17 +436,22 @@ impl Subject<'_> {
         all.collect()
     }
 
-    /// The event that the square of a factor is least; where the factor is constant there is none.
-    fn nearest(&self, other: &Other, span: f64) -> EventWatched {
+    /// The events that a factor is zero, and that its square is least, as where components touch; where the factor is constant there are none.
+    fn looks(&self, other: &Other, span: f64) -> [EventWatched; LOOKS] {
         let g = &self.system.graph;
         let slow = rational::from_f64(CONSTANT / span.abs().max(f64::MIN_POSITIVE));
         let shift = slow.map_or(g.zero(), |slow| g.mul(&[g.number(slow), other.function]));
-        EventWatched {
-            name: format!("nearest to {} = 0", g.text(other.function)),
-            value: g.mul(&[other.function, g.sub(other.rate, shift)]),
-            direction: Direction::Up,
+        let look = |value: Expr, direction: Direction| EventWatched {
+            name: format!("{} = 0", g.text(other.function)),
+            value,
+            direction,
             stops: false,
-        }
+        };
+        let slope = g.mul(&[other.function, g.sub(other.rate, shift)]);
+        [
+            look(other.function, Direction::Both),
+            look(slope, Direction::Up),
+        ]
     }
 
     /// Multipliers in events are those of the constraints as stated.
@@ -335,14 +488,14 @@ impl Subject<'_> {
         }
         let mut found = Met::default();
         for event in run.events.iter().filter(|event| event.event >= own) {
-            let place = event.event - own;
+            let place = (event.event - own) / LOOKS;
             let values = observer.at(event.t, &event.row);
             let [value, rate] = [2 * place, 2 * place + 1].map(|k| (values[k].abs(), largest[k]));
             if value.0 > MET * value.1 {
                 continue;
             }
             if others[place].other.is_of_place && rate.0 > TOUCHING * rate.1 {
-                found.passed.push(event.t);
+                found.passed.push((event.t, place));
                 continue;
             }
             found.ended = Some((event.t, place));
@@ -431,8 +584,8 @@ impl Run {
 /// What became of the motion where it met other components.
 #[derive(Default)]
 struct Met {
-    /// Times at which it passed.
-    passed: Vec<f64>,
+    /// Times at which it passed, with the numbers of the components.
+    passed: Vec<(f64, usize)>,
     /// The time at which it is not determined, and the number of the component met.
     ended: Option<(f64, usize)>,
 }

@@ -460,6 +460,13 @@ impl<'s> Solved<'s> {
         rules.chain(left).collect()
     }
 
+    /// The jets that the equations give beyond others.
+    pub fn jets_beyond(&self, others: &Solved<'_>) -> Vec<Jet> {
+        let is_known = |jet: &Jet| others.rules.iter().any(|own| own.jet == *jet);
+        let all = self.rules.iter().map(|rule| rule.jet.clone());
+        all.filter(|jet| !is_known(jet)).collect()
+    }
+
     fn open_equations(&self) -> impl Iterator<Item = Expr> + '_ {
         self.left
             .iter()

@@ -605,8 +605,24 @@ impl Solved<'_> {
         } else {
             Entries::Normal
         };
+        if let Some(divisor) = divisor {
+            self.note_parameters(divisor);
+        }
         let tensor = tensor.to_owned();
         self.note_pivot(Pivot { tensor, entries });
+    }
+
+    /// The factors without fields and the normal of what was divided by.
+    fn note_parameters(&mut self, divisor: Expr) {
+        let g = &self.space.graph;
+        let symbols = g.symbols_in(&[divisor]);
+        let factors = chetaev_symbolic::factors::factors(g, divisor, &symbols).unwrap_or_default();
+        for (factor, _) in factors {
+            let is_open = g.as_number(factor).is_none() && !self.space.sign(factor).is_nonzero();
+            if is_open && self.is_free(&[factor]) && !self.has_fields(&[factor]) {
+                self.nonzero.insert(factor);
+            }
+        }
     }
 
     fn note_pivot(&mut self, pivot: Pivot) {

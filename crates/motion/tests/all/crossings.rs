@@ -595,3 +595,30 @@ fn where_components_meet_the_motion_goes_on_as_asked() {
         }
     }
 }
+
+/// y' (x' − (t − 1)³) = 0 at rest under a force along y: at t = 1 the velocity zero lies on both, which meet in a point of third order.
+#[test]
+fn components_that_meet_to_third_order_are_met() {
+    let own = |g: &Graph| {
+        let t = g.sub(g.symbol("t", 0), g.one());
+        let other = g.sub(g.symbol("x", 1), g.powi(t, 3));
+        let a = g.mul(&[g.symbol("y", 1), other]);
+        parts(
+            g,
+            &["x", "y"],
+            sum(g, &[(-1, 1, &[("y", 1)])]),
+            vec![("a", a)],
+        )
+    };
+    for (form, settings, _) in ways(3.0) {
+        let what = format!("{form} {} {:e}", settings.method, settings.tolerance);
+        let start = (&[0.0, 0.0][..], &[0.0, 0.0][..]);
+        let found = run_on_component(own, start, form, &settings);
+        assert!(!found.ending.finished, "{what}");
+        assert!(
+            (found.ending.t - 1.0).abs() < 1e-3,
+            "{what}: {}",
+            found.ending.reason
+        );
+    }
+}

@@ -8,8 +8,9 @@
 
 use super::comparison::{Comparison, System};
 use crate::elimination::Solved;
-use crate::functional::Piece;
-use crate::smoothness::Region;
+use crate::functional::{Piece, Side};
+use crate::smoothness::{guards, Guard, Region};
+use crate::space::Jet;
 use chetaev_symbolic::zero::assumptions::Relation;
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
@@ -40,13 +41,18 @@ impl<'f> Comparison<'f> {
         is_solved && self.is_regular(solved) && self.has_data(es, system, on)
     }
 
-    /// Whether what is divided by to solve the equations of the body for derivatives vanishes nowhere, its ends included.
+    /// Whether what is divided by to solve the equations of the body for derivatives vanishes nowhere, its ends included, and their coefficients
+    /// are smooth there.
     pub(super) fn is_regular(&self, solved: &Solved<'f>) -> bool {
         let space = &*self.functional.space;
+        let g = &space.graph;
         let region = Region::new(space, self.functional.intervals.clone(), true);
-        let is_of_place = |e: &&Expr| space.is_of_place(&[**e]);
-        let mut of_place = solved.divisors.iter().filter(is_of_place);
-        of_place.all(|&e| region.holds((e, Relation::NotEqual)) == Some(true))
+        let divisors = solved.divisors.iter().map(|&e| (e, Relation::NotEqual));
+        let equations = solved.beyond(&Solved::new(space)).into_iter();
+        let coefficients = equations.flat_map(|e| guards(g, space.explicit(e)));
+        let is_of_place = |own: &Guard| space.is_of_place(&[own.0]);
+        let mut all = divisors.chain(coefficients).filter(is_of_place);
+        all.all(|guard| region.holds(guard) == Some(true))
     }
 
     /// Whether all equations of the body, or all conditions on its boundary, contain data by which they hold. On a line the conditions at the
@@ -69,6 +75,11 @@ impl<'f> Comparison<'f> {
         // A parameter is the same number everywhere, so also in what is looked at.
         let looked_at: BTreeSet<Datum> = es.iter().flat_map(|&e| self.data_in(e)).collect();
         let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
+        // What holds where two pieces meet is carried along them.
+        let mut equations = functional.equations.iter();
+        if equations.any(|own| own.on.as_ref().is_some_and(|on| on.contains(','))) {
+            return false;
+        }
         let is_continued = || {
             let pieces = functional.pieces.iter().filter(is_elsewhere);
             let on_pieces = pieces.filter_map(|piece| self.on(piece, system));
@@ -78,9 +89,36 @@ impl<'f> Comparison<'f> {
             let left = self.without_data(all, &looked_at);
             self.variation.corners.is_empty() && left.iter().all(|own| own.is_inside)
         };
-        let found = self.without_data(inside.clone(), &looked_at).is_empty() || is_continued();
+        let is_local = || {
+            let mut pieces = functional.pieces.iter();
+            self.without_data(inside.clone(), &looked_at).is_empty()
+                && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
+        };
+        let found = is_local() || is_continued();
         self.extended.borrow_mut().insert(system, found);
         found
+    }
+
+    /// Whether the conditions on a piece give fields and their derivatives across it, so that they are no differential equations along it; of
+    /// a curved piece with second derivatives, whether they do where it is plane.
+    fn is_free_along(&self, piece: &Piece, system: System) -> bool {
+        let mut planes = self.planes.iter();
+        let plane = planes.find(|own| own.functional.piece(&piece.name).is_some());
+        if let Some(plane) = plane {
+            let there = self.where_plane(plane);
+            let mut pieces = plane.functional.pieces.iter();
+            return pieces.all(|piece| there.is_free_along(piece, system));
+        }
+        let Some(on) = self.on(piece, system) else {
+            return true;
+        };
+        let space = &*self.functional.space;
+        let is_of_boundary = |jet: &Jet| space.component_at(jet.component).is_of_boundary;
+        let mut given = on.jets_beyond(self.inside(system)).into_iter();
+        given.all(|jet| match piece.side {
+            Side::Flat { axis, .. } => jet.by.iter().all(|by| *by == axis),
+            Side::Curved => jet.by.is_empty() || (jet.by.len() == 1 && !is_of_boundary(&jet)),
+        })
     }
 
     /// The equations that are left when those are left out, one after the other, that alone contain something by which they hold.

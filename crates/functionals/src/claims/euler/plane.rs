@@ -56,7 +56,7 @@ fn with_plane(functional: &Functional, piece: &Piece) -> Option<Functional> {
 
 impl<'f> Comparison<'f> {
     /// The comparison of a piece where it is plane; the interior is the same.
-    fn where_plane(&self, plane: &'f Plane) -> Comparison<'f> {
+    pub(super) fn where_plane(&self, plane: &'f Plane) -> Comparison<'f> {
         self.of_another(&plane.functional, &plane.variation)
     }
 

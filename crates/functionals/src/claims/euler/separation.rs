@@ -46,6 +46,8 @@ struct Search<'f> {
     functional: &'f Functional,
     values: Vec<(Symbol, Rational)>,
     systems: [Vec<Holds>; 2],
+    /// Whether the body has no shape, and was put on the box.
+    is_placed: bool,
 }
 
 /// A refutation of the equivalence of what is derived and what is stated, by fields that satisfy the one and not the other.
@@ -60,11 +62,11 @@ pub(super) fn separated(functional: &Functional, own: &Variation) -> Option<Verd
     }
     let is_curved = |piece: &Piece| piece.side == Side::Curved;
     if !functional.pieces.iter().any(is_curved) {
-        return searched(functional, own);
+        return searched(functional, own, false);
     }
     let (placed, _) = on_box(functional, &unit_box(functional))?;
     let own = variation(&placed).ok()?;
-    searched(&placed, &own)
+    searched(&placed, &own, true)
 }
 
 /// The unit box, its faces shared out among the pieces.
@@ -99,10 +101,10 @@ fn unit_box(functional: &Functional) -> Solution {
     }
 }
 
-fn searched(functional: &Functional, own: &Variation) -> Option<Verdict> {
+fn searched(functional: &Functional, own: &Variation, is_placed: bool) -> Option<Verdict> {
     (0..CHOICES).find_map(|choice| {
         let values = values(functional, choice)?;
-        let search = Search::new(functional, own, values)?;
+        let search = Search::new(functional, own, values)?.placed(is_placed);
         let both = [
             (System::Derived, System::Stated),
             (System::Stated, System::Derived),
@@ -174,6 +176,7 @@ impl<'f> Search<'f> {
             functional,
             values,
             systems: Default::default(),
+            is_placed: false,
         };
         let mut derived = search.stated(Role::Imposed)?;
         let mut stated = search.stated(Role::Imposed)?;
@@ -181,6 +184,10 @@ impl<'f> Search<'f> {
         stated.extend(search.stated(Role::Yielded)?);
         search.systems = [derived, stated];
         Some(search)
+    }
+
+    fn placed(self, is_placed: bool) -> Search<'f> {
+        Search { is_placed, ..self }
     }
 
     fn number(&self, e: Expr) -> Option<Rational> {
@@ -275,7 +282,9 @@ impl<'f> Search<'f> {
     /// Fields that satisfy one system and not the other.
     fn separating(&self, one: System, other: System) -> Option<Verdict> {
         let all = self.system(one);
-        let violated = self.system(other).iter().filter(|own| !own.is_imposed);
+        // A piece without a shape has no corners: what holds at those of the box is not claimed of it.
+        let is_claimed = |own: &&Holds| !own.is_imposed && (!self.is_placed || own.at.len() < 2);
+        let violated = self.system(other).iter().filter(is_claimed);
         let violated: Vec<&Holds> = violated.collect();
         DEGREES.iter().find_map(|&degree| {
             let fields = self.fields_of(all, degree)?;
