@@ -80,6 +80,13 @@ fn nothing_is_carried_from_an_end_where_the_equations_are_singular() {
             &["x = 0: u = 0"][..],
             ["u = 0", "x p,x + 2 p = 0"],
         ),
+        // A coefficient that is singular at the end: u = x.
+        (
+            "p (u,x - u/x)",
+            HELD,
+            &["x = 0: u = 0"][..],
+            ["u = 0", "p,x + p/x = 0"],
+        ),
         (
             "p (u u,x - x)",
             HELD,
@@ -175,4 +182,35 @@ fn polynomials_that_satisfy_one_system_alone_refute() {
     }
     let (word, detail) = euler("1/2 u,i u,i", &SQUARE, &[], &["u,ii = 0", "x = 1: u = 0"]);
     assert_eq!(word, "refuted", "{detail}");
+}
+
+/// Conditions along a face are equations of their own: u'' = 0 along x = 1 with u' = 0 at its ends gives u' = 0, whatever the load; and on a curved
+/// piece what is divided by is said.
+#[test]
+fn conditions_along_a_face_are_no_data() {
+    let text = |faces: &str, density: &str, stated: &str, labels: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"{density}\"\nyields = [{labels}]\n[domain]\ncoordinates = [\"x\", \"y\"]\n\
+             {faces}[equations]\n{stated}"
+        )
+    };
+    let square = "intervals = { x = [0, 1], y = [0, 1] }\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\n\
+                  \"x = 0\" = \"0\"\n\"x = 1\" = \"1/2 u,y^2\"\n\"y = 0\" = \"0\"\n\"y = 1\" = \"0\"\n";
+    let stated = "e = \"u,yy + q = 0\"\na = { equation = \"u,y = 0\", on = \"x = 1\" }\nb = { equation = \"u,y = 0\", on = \"y = 0\" }\n\
+                  c = { equation = \"u,y = 0\", on = \"y = 1\" }\n";
+    let along = text(
+        square,
+        "1/2 u,y^2 - q u",
+        stated,
+        "\"e\", \"a\", \"b\", \"c\"",
+    );
+    let study = studied_text("p4p", &along, &[]);
+    assert_ne!(decided(&study, "functional.euler").word(), "refuted");
+    let disc = "boundary = [\"S\"]\n[parameters]\nk = {}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\nS = \"0\"\n";
+    let stated = "e = \"k u,ii + q = 0\"\na = { equation = \"u,i n_i = 0\", on = \"S\" }\n";
+    let free = text(disc, "k/2 u,i u,i - q u", stated, "\"e\", \"a\"");
+    let study = studied_text("p4p", &free, &[]);
+    let verdict = decided(&study, "functional.euler");
+    assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+    assert!(verdict.detail().contains("k ≠ 0"), "{}", verdict.detail());
 }

@@ -127,3 +127,43 @@ fn the_book_has_the_pictures_of_the_program() {
     let drawn = map(&model(BICYCLE), &two, &mut |_| {}).unwrap();
     assert!(drawn.picture() == regions);
 }
+
+/// What the ranges of a parameter of three oscillators say.
+fn oscillators(forces: &str, over: &str) -> String {
+    let text = format!(
+        "name = \"oscillators\"\ncoordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ c = 2 }}\n\
+         lagrangian = \"1/2 (x'^2 + y'^2 + z'^2) - 1/2 (x^2 + y^2 + c^2 z^2)\"\n[forces]\n{forces}\n[steady.rest]\nx = 0\ny = 0\nz = 0\n"
+    );
+    let wanted = Wanted {
+        over: Some(over),
+        ..Wanted::default()
+    };
+    found(&text, &wanted).ranges_text()
+}
+
+/// A force along x that y exerts makes a Jordan block of the two equal frequencies: x'' + x = y has solutions t cos t.
+#[test]
+fn motions_beside_a_jordan_block_are_not_called_bounded() {
+    let own = oscillators("x = \"y\"", "c=2:3");
+    assert!(
+        own.contains("fewer eigenvectors than its multiplicity"),
+        "{own}"
+    );
+    assert!(!own.contains("stay bounded"), "{own}");
+    let own = oscillators("x = \"0\"", "c=2:3");
+    assert!(own.contains("linear motions stay bounded"), "{own}");
+}
+
+/// x'' + x = (c − 2) x' passes c = 2 with all motions periodic: the first Lyapunov coefficient is zero, and says nothing.
+#[test]
+fn a_lyapunov_coefficient_that_vanishes_says_nothing() {
+    let text = "name = \"own\"\ncoordinates = [\"x\"]\nparameters = { c = 1 }\nlagrangian = \"1/2 x'^2 - 1/2 x^2\"\n[forces]\n\
+                x = \"(c - 2) x'\"\n[steady.rest]\nx = 0\n";
+    let wanted = Wanted {
+        over: Some("c=1:3"),
+        ..Wanted::default()
+    };
+    let own = found(text, &wanted).ranges_text();
+    assert!(own.contains("a pair of eigenvalues passes"), "{own}");
+    assert!(own.contains("vanish"), "{own}");
+}
