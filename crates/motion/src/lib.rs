@@ -6,7 +6,7 @@
 //! - the start: [`initial`] (consistent data, branches of the highest derivatives);
 //! - what is integrated: [`multiplier_flow`] (Routh, solved at each state), [`formulation_flow`] (any other form in its own state),
 //!   [`jet_flow`] (constraints of order two and more), on [`numeric`] terms, with [`chart`]s of independent velocities;
-//! - on the way: [`watch`] (what makes the equations singular), [`crossing`] (where the rank of the constraints falls), [`component`] (constraints that are products), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
+//! - on the way: [`watch`] (what makes the equations singular), [`crossing`] (where the rank of the constraints falls), [`component`] (constraints that are products, and where their components meet), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
 //!   [`keep`] (projection on integrals), [`stop`] (why a run ended);
 //! - many runs: [`repeat`] (compiled once, for many starts and parameters).
 
@@ -29,6 +29,7 @@ pub mod jet_flow;
 pub mod keep;
 mod least_norm;
 mod leaving;
+mod meeting;
 pub mod multiplier_flow;
 mod nearest;
 pub mod numeric;

@@ -453,9 +453,10 @@ impl Subject<'_> {
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
-        match self.factors.is_empty() {
-            true => self.integrated(formulation, settings, watcher),
-            false => self.on_component(formulation, settings, watcher),
+        if self.factors.is_empty() {
+            self.integrated(formulation, settings, watcher)
+        } else {
+            self.on_component(formulation, settings, watcher)
         }
     }
 

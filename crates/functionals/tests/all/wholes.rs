@@ -11,9 +11,10 @@ fn euler(
     stated: &[&str],
 ) -> (String, String) {
     let is_plane = faces.iter().any(|(face, _)| face.starts_with('y'));
-    let (coordinates, intervals) = match is_plane {
-        true => ("\"x\", \"y\"", "x = [0, 1], y = [0, 1]"),
-        false => ("\"x\"", "x = [0, 1]"),
+    let (coordinates, intervals) = if is_plane {
+        ("\"x\", \"y\"", "x = [0, 1], y = [0, 1]")
+    } else {
+        ("\"x\"", "x = [0, 1]")
     };
     let fields: Vec<String> = ["u", "v", "p"]
         .iter()
@@ -27,9 +28,12 @@ fn euler(
         .collect();
     let boundary: Vec<String> = faces
         .iter()
-        .map(|(face, density)| match density.is_empty() {
-            true => format!("\"{face}\" = {{ fixed = [\"u\"] }}\n"),
-            false => format!("\"{face}\" = \"{density}\"\n"),
+        .map(|(face, density)| {
+            if density.is_empty() {
+                format!("\"{face}\" = {{ fixed = [\"u\"] }}\n")
+            } else {
+                format!("\"{face}\" = \"{density}\"\n")
+            }
         })
         .collect();
     let names = |mark: &str, list: &[&str]| {

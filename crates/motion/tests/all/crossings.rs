@@ -413,8 +413,17 @@ fn run_on_component(
 ) -> Run {
     let g = Arc::new(Graph::new());
     let system = System::new(g.clone(), parts(&g)).unwrap();
+    on_component(&system, (q, v), form, settings)
+}
+
+fn on_component(
+    system: &System,
+    start: (&[f64], &[f64]),
+    form: &str,
+    settings: &RunSettings,
+) -> Run {
     let form = formulation(form).unwrap();
-    with_subject(&system, (q, v), |subject| {
+    with_subject(system, start, |subject| {
         let component = Component::of_start(subject).unwrap();
         let on = component.subject(subject.binding);
         on.by(form, settings, &mut Watcher::default()).unwrap()
@@ -473,12 +482,7 @@ fn a_bead_stays_on_its_curve_where_a_line_crosses_it() {
         events: vec![event],
         ..RunSettings::new(0.0, 4.0)
     };
-    let run = with_subject(&system, start, |subject| {
-        let component = Component::of_start(subject).unwrap();
-        let on = component.subject(subject.binding);
-        let form = formulation("routh").unwrap();
-        on.by(form, &settings, &mut Watcher::default()).unwrap()
-    });
+    let run = on_component(&system, start, "routh", &settings);
     assert_eq!(run.events.len(), 1);
     let row = &run.events[0].row;
     assert!((row[run.layout.lambda().start] - 1.0).abs() < 1e-9);
@@ -574,13 +578,8 @@ fn where_components_meet_the_motion_goes_on_as_asked() {
                 crossings: vec![(text.into(), choice)],
                 ..settings
             };
-            let form = formulation(form).unwrap();
             let start = (&[0.0, 0.0][..], &[1.0, 1.0][..]);
-            let run = with_subject(&system, start, |subject| {
-                let component = Component::of_start(subject).unwrap();
-                let on = component.subject(subject.binding);
-                on.by(form, &settings, &mut Watcher::default()).unwrap()
-            });
+            let run = on_component(&system, start, form, &settings);
             assert!(run.ending.finished, "{what}: {}", run.ending.reason);
             assert_eq!(run.crossings.len(), 1, "{what}");
             assert_eq!(run.times, settings.times, "{what}");

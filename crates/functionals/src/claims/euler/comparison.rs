@@ -301,9 +301,10 @@ impl<'f> Comparison<'f> {
                 self.is_carried(es, &self.stated, at_end)
             }
         };
-        let (verdict, open) = match carried {
-            true => (Verdict::Proved(Proof::exact("", "")), Vec::new()),
-            false => (Verdict::undecided(NOT_AS_WHOLE), own.open),
+        let (verdict, open) = if carried {
+            (Verdict::Proved(Proof::exact("", "")), Vec::new())
+        } else {
+            (Verdict::undecided(NOT_AS_WHOLE), own.open)
         };
         Judged {
             verdict,

@@ -64,6 +64,11 @@ impl<'f> Comparison<'f> {
         if let Some(known) = known.filter(|_| !is_line) {
             return known;
         }
+        // What holds where two pieces meet is carried along them.
+        let mut equations = functional.equations.iter();
+        if equations.any(|own| own.on.as_ref().is_some_and(|on| on.contains(','))) {
+            return false;
+        }
         let solved = self.inside(system);
         let inside = solved.beyond(&Solved::new(&functional.space));
         let bound = |e: Expr, is_inside: bool| Bound {
@@ -75,11 +80,6 @@ impl<'f> Comparison<'f> {
         // A parameter is the same number everywhere, so also in what is looked at.
         let looked_at: BTreeSet<Datum> = es.iter().flat_map(|&e| self.data_in(e)).collect();
         let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
-        // What holds where two pieces meet is carried along them.
-        let mut equations = functional.equations.iter();
-        if equations.any(|own| own.on.as_ref().is_some_and(|on| on.contains(','))) {
-            return false;
-        }
         let is_continued = || {
             let pieces = functional.pieces.iter().filter(is_elsewhere);
             let on_pieces = pieces.filter_map(|piece| self.on(piece, system));
@@ -131,11 +131,8 @@ impl<'f> Comparison<'f> {
                 others.any(|(_, own)| own.data.contains(datum))
             };
             own.data.iter().any(|datum| {
-                let may_be_chosen = match is_number(datum) {
-                    true => !own.is_inside && !looked_at.contains(datum),
-                    false => true,
-                };
-                may_be_chosen && !stands_elsewhere(datum) && self.solves(own.e, datum)
+                let is_bound = is_number(datum) && (own.is_inside || looked_at.contains(datum));
+                !is_bound && !stands_elsewhere(datum) && self.solves(own.e, datum)
             })
         };
         while let Some(at) = (0..open.len()).find(|&at| holds_by_own(at, &open)) {

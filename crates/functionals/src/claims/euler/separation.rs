@@ -435,9 +435,10 @@ impl<'f> Search<'f> {
                 enclosure: None,
             });
         let residual = rational::to_f64(&value.exact(&place)).to_string();
-        let of = match self.values.is_empty() {
-            true => String::new(),
-            false => " with the values stated of the parameters".to_owned(),
+        let of = if self.values.is_empty() {
+            ""
+        } else {
+            " with the values stated of the parameters"
         };
         Verdict::Refuted(Counterexample {
             detail: format!(
