@@ -21,6 +21,7 @@ use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use dashu_int::ops::BitTest;
+use dashu_int::IBig;
 use dashu_ratio::RBig;
 use std::any::{Any, TypeId};
 use std::cell::{OnceCell, RefCell};
@@ -277,6 +278,11 @@ pub(crate) trait Statement {
         false
     }
 
+    /// Whether integrals that are known for general values of the parameter are asked for at single ones.
+    fn uses_integrals(&self) -> bool {
+        false
+    }
+
     /// What contradicts it, at a value of the parameter.
     fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample;
 }
@@ -385,6 +391,21 @@ fn exists(about: &About<'_>, values: &[(Expr, Expr)]) -> bool {
     !is_known || g.enclose(&stated, &Precision::new(128), &|_| None).is_ok()
 }
 
+/// A number that is written in full by at most so many digits behind the point.
+fn terminating(at: &RBig) -> Option<String> {
+    let shift = RBig::from(IBig::from(10).pow(DIGITS));
+    let scaled = at * shift;
+    let digits = scaled.is_int().then(|| scaled.numerator().to_string())?;
+    let (sign, digits) = match digits.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", digits.as_str()),
+    };
+    let digits = format!("{digits:0>width$}", width = DIGITS + 1);
+    let (whole, rest) = digits.split_at(digits.len() - DIGITS);
+    let written = format!("{sign}{whole}.{rest}");
+    Some(written.trim_end_matches('0').trim_end_matches('.').into())
+}
+
 /// What is said where the model states a value for every parameter.
 fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
     let Some(place) = about.question.place_at(about.graph(), None) else {
@@ -462,11 +483,7 @@ impl Border {
 
     /// Where it is.
     fn place(&self, name: &str) -> String {
-        if self.root.low == self.root.high {
-            format!("{name} = {}", self.root.low)
-        } else {
-            format!("{name} in {}", self.root.text())
-        }
+        self.root.place_of(name)
     }
 }
 
@@ -593,7 +610,7 @@ impl Pieces {
         let exactly = |at: Expr| -> Option<Said> {
             let values = values_at(system, symbol, at);
             let mut there = About::new(cx, motion, &values, None).ok()?;
-            if statement.looks_at_boundaries() {
+            if statement.uses_integrals() {
                 there.inherited = about.bundles_at((symbol, at));
             }
             let place = there.question.place_at(there.graph(), None)?;
@@ -773,10 +790,10 @@ impl Pieces {
         if self.borders.iter().filter(is_same).count() < 2 {
             return own;
         }
-        let (low, _) = Precision::new(BITS)
-            .rational(at)
-            .to_decimal_interval(DIGITS);
-        without_power(&low)
+        terminating(at).unwrap_or_else(|| {
+            let ball = Precision::new(BITS).rational(at);
+            without_power(&ball.to_decimal_interval(DIGITS).0)
+        })
     }
 
     /// An interval in which the statement fails, and a value there: the one that the model states where it is among them.

@@ -28,13 +28,17 @@ impl Root {
         (low, high)
     }
 
-    /// The zero itself where it is known, else the interval.
-    pub fn text(&self) -> String {
+    /// Where a quantity of this name has it: `p = 2`, or `p in [1.41, 1.42]` where the zero itself is not known.
+    pub fn place_of(&self, name: &str) -> String {
         if self.low == self.high {
-            return format!("{{{}}}", self.low);
+            return format!("{name} = {}", self.low);
         }
         let (low, high) = self.decimal_bounds();
-        format!("[{}, {}]", without_power(&low), without_power(&high))
+        format!(
+            "{name} in [{}, {}]",
+            without_power(&low),
+            without_power(&high)
+        )
     }
 }
 
@@ -135,7 +139,8 @@ fn is_small(a: &RBig, b: &RBig, halvings: usize) -> bool {
     (b - a) * RBig::from(IBig::ONE << halvings) <= smallest
 }
 
-/// The zero between two places with different signs, `left` being that of the lower one; as close as signs are decided.
+/// The zero between two places with different signs, `left` being that of the lower one; as close as signs are decided. A rational zero is found
+/// itself: between two close places it is the number with the smallest denominator.
 fn refined(
     function: &impl Enclosed,
     mut a: RBig,
@@ -164,6 +169,10 @@ fn refined(
             own if own == left => a = place,
             _ => b = place,
         }
+    }
+    let simplest = RBig::simplest_in(a.clone(), b.clone());
+    if function.sign(&simplest) == Some(Ordering::Equal) {
+        (a, b) = (simplest.clone(), simplest);
     }
     Some(Root { low: a, high: b })
 }

@@ -24,14 +24,74 @@ pub struct Defect {
 /// `None` where a rank was not decided.
 ///
 /// Without a value the answer holds for general values of the parameter. An eigenvalue that is semisimple there is so wherever its
-/// multiplicity is the same, since kernels can only grow.
+/// multiplicity is the same, since kernels can only grow; one that is not may be so at zeros of [`where_kernels_grow`].
 pub fn defects(g: &Graph, question: &Question, at: Option<&RBig>) -> Option<Vec<Defect>> {
+    let ranks = ranks(g, question, at)?;
+    let mut found = Vec::new();
+    for own in ranks {
+        own.is_sure(g).then_some(())?;
+        found.extend(own.defect());
+    }
+    Some(found)
+}
+
+/// Functions of the parameter that was left in: only where one of them vanishes an eigenvalue that is not semisimple for general values may
+/// be so. Each is a minor of the matrix whose kernel is asked for, of its rank.
+pub(crate) fn where_kernels_grow(g: &Graph, question: &Question) -> Vec<Expr> {
+    let ranks = ranks(g, question, None).unwrap_or_default();
+    let defective = ranks.iter().filter(|own| own.defect().is_some());
+    defective.map(|own| closed(g, g.mul(&own.pivots))).collect()
+}
+
+/// The eigenvectors of an eigenvalue on the axis.
+struct Kernel {
+    /// As in [`Defect`].
+    factor: Option<Polynomial>,
+    multiplicity: usize,
+    chains: usize,
+    /// What an elimination divided by.
+    pivots: Vec<Expr>,
+}
+
+impl Kernel {
+    fn new(
+        g: &Graph,
+        (factor, multiplicity): (Option<&Polynomial>, usize),
+        matrix: &[Vec<Expr>],
+    ) -> Kernel {
+        let columns = matrix.first().map_or(0, Vec::len);
+        let pivots = echelon(g, &mut matrix.to_vec(), columns).values;
+        let degree = factor.map_or(1, |own| own.len() - 1);
+        Kernel {
+            factor: factor.cloned(),
+            multiplicity,
+            chains: (matrix.len() - pivots.len()) / degree,
+            pivots,
+        }
+    }
+
+    /// Whether no pivot that is a number may be zero.
+    fn is_sure(&self, g: &Graph) -> bool {
+        let is_number = |&&e: &&Expr| g.symbols_in(&[e]).is_empty();
+        let mut numbers = self.pivots.iter().filter(is_number);
+        numbers.all(|&e| sign_of(g, e).is_some_and(|s| s != Ordering::Equal))
+    }
+
+    fn defect(&self) -> Option<Defect> {
+        (self.chains < self.multiplicity).then(|| Defect {
+            factor: self.factor.clone(),
+            multiplicity: self.multiplicity,
+            chains: self.chains,
+        })
+    }
+}
+
+/// The kernels of all eigenvalues on the axis that may have fewer eigenvectors than their multiplicity. `None` where the masses have no inverse.
+fn ranks(g: &Graph, question: &Question, at: Option<&RBig>) -> Option<Vec<Kernel>> {
+    let value_of = question.over.zip(at);
+    let pairs = value_of.map(|(symbol, at)| (g.symbol_expr(symbol), g.number(at.clone())));
+    let pairs: Vec<(Expr, Expr)> = pairs.into_iter().collect();
     let put = |rows: &[Vec<Expr>]| -> Vec<Vec<Expr>> {
-        let value = question.over.zip(at);
-        let pairs: Vec<(Expr, Expr)> = value
-            .map(|(symbol, at)| (g.symbol_expr(symbol), g.number(at.clone())))
-            .into_iter()
-            .collect();
         let row = |row: &Vec<Expr>| {
             let row = g.substitute_all(row, &pairs);
             row.into_iter().map(|e| closed(g, e)).collect()
@@ -39,51 +99,23 @@ pub fn defects(g: &Graph, question: &Question, at: Option<&RBig>) -> Option<Vec<
         rows.iter().map(row).collect()
     };
     let (left, right) = (put(&question.linear.left), put(&question.linear.right));
-    let n = left.len();
     let mut found = Vec::new();
     let zeros = question.zeros();
     if zeros > question.linear.family {
-        let chains = n - rank(g, &right)?;
-        if chains < zeros {
-            found.push(Defect {
-                factor: None,
-                multiplicity: zeros,
-                chains,
-            });
-        }
+        found.push(Kernel::new(g, (None, zeros), &right));
     }
-    let repeated = question.spectrum.factors.iter();
-    let repeated: Vec<_> = repeated
-        .filter(|(f, power)| *power > 1 && is_even(g, f))
-        .collect();
+    let factors = question.spectrum.factors.iter();
+    let repeated = factors.filter(|(f, power)| *power > 1 && is_even(g, f));
+    let repeated: Vec<_> = repeated.collect();
     if repeated.is_empty() {
         return Some(found);
     }
     let matrix = product(g, &inverse(g, &left).ok()?, &right);
     for (factor, power) in repeated {
-        let degree = factor.len() - 1;
-        let kernel = n - rank(g, &value(g, factor, &matrix))?;
-        if kernel < degree * *power as usize {
-            found.push(Defect {
-                factor: Some(factor.clone()),
-                multiplicity: *power as usize,
-                chains: kernel / degree,
-            });
-        }
+        let own = (Some(factor), *power as usize);
+        found.push(Kernel::new(g, own, &value(g, factor, &matrix)));
     }
     Some(found)
-}
-
-/// The rank of a matrix of closed expressions; `None` where an entry by which was divided may be zero.
-fn rank(g: &Graph, rows: &[Vec<Expr>]) -> Option<usize> {
-    let columns = rows.first().map_or(0, Vec::len);
-    let mut rows = rows.to_vec();
-    let pivots = echelon(g, &mut rows, columns);
-    let is_sure = pivots.values.iter().all(|&pivot| {
-        let is_number = g.symbols_in(&[pivot]).is_empty();
-        !is_number || sign_of(g, pivot).is_some_and(|s| s != Ordering::Equal)
-    });
-    is_sure.then_some(pivots.columns.len())
 }
 
 /// The product of two matrices, entries in their normal forms.

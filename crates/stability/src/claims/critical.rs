@@ -233,8 +233,8 @@ impl Over<'_, '_> {
         let g = self.about.graph();
         let (name, root) = (g.symbol_text(self.symbol), &boundary.root);
         match self.exact(boundary).filter(|_| root.low != root.high) {
-            Some(exact) => format!("{name} = {} in {}", g.text(exact), root.text()),
-            None => format!("{name} in {}", root.text()),
+            Some(exact) => root.place_of(&format!("{name} = {}", g.text(exact))),
+            None => root.place_of(&name),
         }
     }
 }

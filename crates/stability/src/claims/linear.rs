@@ -2,9 +2,10 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::evidence::{counted, unstable};
-use crate::multiplicity::{defects, Defect};
+use crate::multiplicity::{defects, where_kernels_grow, Defect};
 use crate::question::Place;
 use chetaev_symbolic::verdict::Counterexample;
+use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
 
 /// `stability.linear#j`: none lies right of the axis, and those on it are semisimple.
@@ -32,13 +33,24 @@ impl Statement for Linear {
             Place::Left => Said::Holds("all eigenvalues but the zeros of the family lie left of the axis, and these have as many eigenvectors as the family has dimensions".into()),
             Place::Right => Said::Fails,
             Place::NotLeft => Said::Open("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other".into()),
-            // Inside of an interval multiplicities do not change, so that what is semisimple for general values is so throughout.
+            // Inside of an interval multiplicities do not change, and no kernel grows, so that what is said of general values is so throughout.
             Place::OnAxis => match defects(about.graph(), &about.question, None) {
                 Some(list) if list.is_empty() => Said::Holds(format!("no eigenvalue lies right of the axis, and those on it have as many eigenvectors as their multiplicity; {NO_MORE}")),
                 Some(_) => Said::Fails,
                 None => Said::Open("the rank of an exact matrix was not decided".into()),
             },
         }
+    }
+
+    fn further(&self, about: &About<'_>) -> Vec<Expr> {
+        match about.question.place(true) {
+            Place::OnAxis => where_kernels_grow(about.graph(), &about.question),
+            _ => Vec::new(),
+        }
+    }
+
+    fn looks_at_boundaries(&self) -> bool {
+        true
     }
 
     fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample {

@@ -46,6 +46,10 @@ impl Statement for Nonlinear {
         true
     }
 
+    fn uses_integrals(&self) -> bool {
+        true
+    }
+
     fn is_witnessed(&self) -> bool {
         true
     }

@@ -119,9 +119,47 @@ over = "p"
     let verdict = case.verdict("stability.critical", "p");
     let said = verdict.detail();
     assert!(
-        said.starts_with("the spectral stability of s is the same for all p; without a change of stability an eigenvalue passes through zero, unstable on both sides and there, at p in"),
+        said.starts_with("the spectral stability of s is the same for all p; without a change of stability an eigenvalue passes through zero, unstable on both sides and there, at p = 1"),
         "{said}"
     );
+}
+
+/// Two oscillators of the same frequency, of which z drives x by the function c(p): x'' = −x + c(p) z, z'' = −z. Where c vanishes the linear
+/// motions stay bounded, and grow like t elsewhere. The same with two that have no frequency, x'' = c(p) z', z'' = −x' c(p)², where c = 0
+/// leaves two uniform motions and what is beside it a rotation with a uniform motion.
+#[test]
+fn single_values_at_which_eigenvalues_have_all_their_vectors_are_told() {
+    let driven = |drive: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "z"]
+parameters = {{ p = 3 }}
+[lagrangian]
+L = "1/2 (x'^2 + z'^2) - 1/2 (x^2 + z^2)"
+[forces]
+x = "{drive}"
+[steady.s]
+x = 0
+z = 0
+"x'" = 0
+"z'" = 0
+over = "p"
+"#
+        ))
+    };
+    let said = |drive: &str| driven(drive).said("stability.linear", "s");
+    assert_eq!(said("p z"), "p = 0");
+    assert_eq!(said("p (p - 2) z"), "p = 0 or p = 2");
+    let roots = said("(p^2 - 2) z");
+    assert!(roots.starts_with("p = -1.414213562373095"), "{roots}");
+    assert!(roots.contains(" or p = 1.414213562373095"), "{roots}");
+    assert_eq!(
+        driven("(p^2 + 1) z").verdict("stability.linear", "s").word(),
+        "refuted"
+    );
+    // At p = 0 z drives x, and x is driven itself: two vanish at different values, and no value leaves all bounded.
+    let both = driven("p (x'^2 - z^2) + (p - 1) z");
+    assert_eq!(both.said("stability.linear", "s"), "p = 1");
 }
 
 /// A bead on a hoop that turns: it stands aside at cos θ = 1/W², where W² ≥ 1.
@@ -146,8 +184,10 @@ over = "W"
         turning.verdict("steady.stated", "aside"),
         Verdict::Conditional { .. }
     ));
-    let found = turning.said("stability.nonlinear", "aside");
-    assert!(found.starts_with("W < -1 or W > 1"), "{found}");
+    // Where it is bent from the lowest place the potential energy is θ⁴/8, so that it is stable, and its linear motions grow like t.
+    assert_eq!(turning.said("stability.nonlinear", "aside"), "proved");
+    let found = turning.said("stability.linear", "aside");
+    assert_eq!(found, "W < -1 or W > 1");
     let slow = bead("0.5");
     for claim in ["steady.stated", "stability.nonlinear"] {
         let said = slow.said(claim, "aside");

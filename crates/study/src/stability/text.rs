@@ -332,8 +332,8 @@ impl Stability {
                 for boundary in &ranges.boundaries {
                     let _ = writeln!(
                         text,
-                        "{name} in {}: {}",
-                        boundary.root.text(),
+                        "{}: {}",
+                        boundary.root.place_of(name),
                         self.crossing(boundary)
                     );
                     let said = self.first_lyapunov(boundary).map(|found| match found {
