@@ -544,7 +544,7 @@ impl Model {
         match found.result {
             Err(_) => Err(PyKeyboardInterrupt::new_err(())),
             Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
-            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
         }
     }
 

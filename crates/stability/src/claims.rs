@@ -1,4 +1,4 @@
-//! Claims on the stability of the steady motions that a model names; the subject is the name of the motion.
+//! Claims on steady motions: which there are, and the stability of those that a model names; the subject is the name of the motion.
 //!
 //! Where one parameter occurs in the motion and not in the equations of the system, as the speed of a bicycle, the verdict speaks of
 //! all its values: it is proved, refuted, or conditional on the ranges. Else it speaks of the values that the model states.
@@ -7,6 +7,7 @@ mod asymptotic;
 mod critical;
 mod linear;
 mod nonlinear;
+mod sets;
 mod spectral;
 mod stated;
 
@@ -14,6 +15,7 @@ pub use asymptotic::Asymptotic;
 pub use critical::Critical;
 pub use linear::Linear;
 pub use nonlinear::Nonlinear;
+pub use sets::{StatesOfRest, SteadyMotions};
 pub use spectral::Spectral;
 pub use stated::Stated;
 
@@ -57,6 +59,8 @@ impl<S: Statement + Sync> Claim for OnStability<S> {
 
 /// The claims of this crate.
 pub static CLAIMS: &[&dyn Claim] = &[
+    &StatesOfRest,
+    &SteadyMotions,
     &Stated,
     &OnStability(Asymptotic),
     &OnStability(Spectral),

@@ -29,7 +29,7 @@ pub enum LinearizationError {
         coordinate: String,
     },
     /// Guesses, and no steady motion near them that is known exactly.
-    #[error("no steady motion was found exactly near the guesses of the motion `{motion}`: {why}")]
+    #[error("no steady motion was found exactly near the guesses of the motion `{motion}`: {why}; `chetaev follow --about {motion}` finds one in numbers")]
     NotFound {
         /// The motion.
         motion: String,

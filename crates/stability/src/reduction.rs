@@ -9,6 +9,7 @@ use chetaev_mechanics::mass;
 use chetaev_mechanics::reduced_equations::ReducedEquations;
 use chetaev_mechanics::regular::{regular, regular_as_stated};
 use chetaev_mechanics::sample::Generator;
+use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{MotionTerms, Selection, System};
 use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::zero::assumptions::Assumptions;
@@ -148,6 +149,16 @@ impl ClosedSystem {
             },
             characteristics,
         }
+    }
+
+    /// The quasi-velocities with their values where all velocities vanish.
+    pub fn speeds_at_rest(&self, system: &System) -> Vec<(Expr, Expr)> {
+        let g = &system.graph;
+        let zero = |c: &Coordinate| (c.v, g.zero());
+        let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(zero).collect();
+        let speeds = self.characteristics.parameters.iter();
+        let own = speeds.map(|p| (g.symbol_expr(p.symbol), g.substitute(p.definition, &at_rest)));
+        own.chain(at_rest.iter().copied()).collect()
     }
 
     /// The coordinates that are ignorable, ascending.

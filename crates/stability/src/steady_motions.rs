@@ -2,7 +2,7 @@
 
 use crate::steady_value::Value;
 use chetaev_mechanics::SteadyMotion;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Graph};
 
 /// All steady motions.
 #[derive(Clone, Debug)]
@@ -42,6 +42,70 @@ pub struct Found {
     pub is_singular: bool,
     /// Whether nothing that the model assumes is proved not to hold along it.
     pub is_assumed: bool,
+}
+
+impl SteadySet {
+    /// Of which states nothing is said, a sentence for each kind.
+    pub fn left_out(&self, g: &Graph) -> Vec<String> {
+        let excluded = self.excluded.iter();
+        let mut all: Vec<String> = excluded
+            .map(|&e| {
+                let where_ = g.text(e);
+                format!("Nothing is said where {where_} vanishes: the equations are not defined there.")
+            })
+            .collect();
+        if !self.has_full_rank {
+            all.push("Nothing is said of states at which the gradients of the constraints depend on each other.".into());
+        }
+        all
+    }
+
+    /// What is known of one of the motions, in words and formulas: values, equations, conditions.
+    pub fn parts(&self, g: &Graph, own: &Found) -> Vec<String> {
+        let values = self.variables.iter().zip(&own.values).enumerate();
+        let values = values.filter_map(|(at, (name, value))| match value {
+            Value::Number {
+                exact: Some(e),
+                ball,
+            } => Some(number(g, name, *e, ball.to_f64())),
+            Value::Number { exact: None, ball } => {
+                let (low, high) = ball.to_decimal_interval(16);
+                Some(format!("{name} in [{low}, {high}]"))
+            }
+            Value::Function(e) if own.free.iter().any(|(_, free)| *free == at) => {
+                Some(format!("{name} = {}, free", g.text(*e)))
+            }
+            Value::Function(e) => Some(format!("{name} = {}", g.text(*e))),
+            Value::Tied => None,
+        });
+        let mut parts: Vec<String> = values.collect();
+        parts.extend(own.equations.iter().map(|&e| format!("{} = 0", g.text(e))));
+        let needed = own.conditions.iter();
+        parts.extend(needed.map(|&e| format!("where {} >= 0", g.text(e))));
+        if !own.is_real {
+            parts.push("no real motion of this family was found at the places tried".into());
+        }
+        if own.is_singular {
+            parts.push(
+                "the mass matrix is singular there, and the equations determine no accelerations"
+                    .into(),
+            );
+        }
+        if !own.is_assumed {
+            parts.push("outside of what the model assumes".into());
+        }
+        parts
+    }
+}
+
+/// `theta = acos(109/200) = 0.99439…`; a rational number as it is.
+fn number(g: &Graph, name: &str, exact: Expr, value: f64) -> String {
+    let text = g.text(exact);
+    if g.as_number(exact).is_some_and(|r| r.is_int()) {
+        format!("{name} = {text}")
+    } else {
+        format!("{name} = {text} = {value:.12}")
+    }
 }
 
 impl Found {

@@ -2,7 +2,8 @@
 //!
 //! Sines and cosines of coordinates, and roots, are unknowns of their own with the relations that they satisfy, so that the equations are
 //! polynomials; their zeros are a union of triangular systems, in which each equation determines one unknown by those before it. Where no unknown
-//! is free the motions are isolated, and every real one is enclosed; else they are a family with the free unknowns as parameters.
+//! is free the motions are isolated, and every real one is enclosed; else they are a family with the free unknowns as parameters. States of rest
+//! are sought in the same way, with all velocities zero: fewer unknowns.
 
 use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, is_singular_at, other_charts, union};
@@ -18,13 +19,22 @@ use chetaev_symbolic::common_zeros::{angles, needed_relations};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 
 /// A number for all symbols, to see whether a function has values.
 const SOMEWHERE: f64 = 0.377;
 
 /// More minors of the gradients of the constraints are not looked at.
 const MINORS: usize = 200;
+
+/// What is sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sought {
+    /// Motions along which everything that the equations depend on is constant.
+    SteadyMotions,
+    /// Those without a velocity.
+    Rest,
+}
 
 /// The steady motions of a system with these values of parameters; others stay symbols in general position.
 ///
@@ -36,12 +46,36 @@ pub fn steady_set(
     selection: &Selection,
     values: &[(Expr, Expr)],
 ) -> Result<SteadySet, SteadySetError> {
-    let mut set = in_chart(system, terms, selection, (values, Speeds::Suitable))?;
+    all_of(
+        Sought::SteadyMotions,
+        (system, terms, selection),
+        values,
+    )
+}
+
+/// The states of rest, or all steady motions.
+///
+/// # Errors
+/// [`SteadySetError`] where they cannot all be found so.
+pub fn all_of(
+    sought: Sought,
+    (system, terms, selection): (&System, &MotionTerms, &Selection),
+    values: &[(Expr, Expr)],
+) -> Result<SteadySet, SteadySetError> {
+    let in_chart = |chart: &Selection, speeds| {
+        let asked = Asked {
+            sought,
+            values,
+            speeds,
+        };
+        in_chart(system, terms, chart, asked)
+    };
+    let mut set = in_chart(selection, Speeds::Suitable)?;
     for chart in other_charts(selection, choices(system.n(), selection.rows.len())) {
         if set.excluded.is_empty() {
             break;
         }
-        let other = in_chart(system, terms, &chart, (values, Speeds::Independent));
+        let other = in_chart(&chart, Speeds::Independent);
         if let Some(other) = other.ok().filter(|other| other.ignorable == set.ignorable) {
             union(system, &mut set, &other);
         }
@@ -50,15 +84,24 @@ pub fn steady_set(
     Ok(set)
 }
 
+/// What is sought in one chart.
+#[derive(Clone, Copy)]
+struct Asked<'v> {
+    sought: Sought,
+    /// Values of parameters.
+    values: &'v [(Expr, Expr)],
+    speeds: Speeds,
+}
+
 /// The steady motions where the speeds of one choice serve.
 fn in_chart(
     system: &System,
     terms: &MotionTerms,
     selection: &Selection,
-    (values, speeds): (&[(Expr, Expr)], Speeds),
+    asked: Asked<'_>,
 ) -> Result<SteadySet, SteadySetError> {
     let g = &system.graph;
-    let equations = Equations::new(system, terms, selection, (values, speeds))?;
+    let equations = Equations::new(system, terms, selection, asked)?;
     let symbols: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
     let mut options = Options::proof(Budget::PROOF);
     options.base_angles = angles(g, &equations.vanishing, &symbols);
@@ -88,7 +131,7 @@ fn in_chart(
         };
         for branch in chain.branches()? {
             let own = found_of(&chain, &equations, branch);
-            let is_assumed = is_assumed(system, &own, values);
+            let is_assumed = is_assumed(system, &own, asked.values);
             found.push(Found { is_assumed, ..own });
         }
     }
@@ -107,6 +150,7 @@ fn in_chart(
 struct Equations<'a> {
     system: &'a System,
     own: ClosedSystem,
+    sought: Sought,
     values: Vec<(Expr, Expr)>,
     /// Rates of coordinates, forces, finite and implicit constraints.
     vanishing: Vec<Expr>,
@@ -114,6 +158,8 @@ struct Equations<'a> {
     slopes: Vec<Expr>,
     /// The unknowns with their names, those that are coordinates first.
     unknowns: Vec<(Symbol, String)>,
+    /// The coordinates among them.
+    coordinates: Vec<usize>,
 }
 
 impl<'a> Equations<'a> {
@@ -121,9 +167,9 @@ impl<'a> Equations<'a> {
         system: &'a System,
         terms: &MotionTerms,
         selection: &Selection,
-        (values, speeds): (&[(Expr, Expr)], Speeds),
+        asked: Asked<'_>,
     ) -> Result<Equations<'a>, SteadySetError> {
-        let g = &system.graph;
+        let (g, values) = (&system.graph, asked.values);
         let numbers = system.parameter_values().into_iter();
         let numbers = numbers.filter_map(|(symbol, value)| {
             let number = g.evaluate_f64(&[value], &|_| None).ok()?[0];
@@ -134,7 +180,7 @@ impl<'a> Equations<'a> {
             numbers: &numbers,
             open: &[],
         };
-        let own = ClosedSystem::about(system, terms, selection, (speeds, operating))?;
+        let own = ClosedSystem::about(system, terms, selection, (asked.speeds, operating))?;
         let ignorable: Vec<Symbol> = own
             .ignorable(system)
             .into_iter()
@@ -148,25 +194,47 @@ impl<'a> Equations<'a> {
         let mut vanishing = [own.rates.clone(), own.equations.force.clone()].concat();
         vanishing.extend(finite.filter(|&e| !g.contains_any(e, &ignorable)));
         vanishing.extend(implicit.clone().map(|(e, _)| *e));
+        let at_rest = match asked.sought {
+            Sought::SteadyMotions => Vec::new(),
+            Sought::Rest => {
+                jumps_at_rest(g, &vanishing)?;
+                vanishing.extend(&own.characteristics.velocities);
+                own.speeds_at_rest(system)
+            }
+        };
         let controls = controls(system, &vanishing);
-        let vanishing = at_point(g, &vanishing, &[&controls, values]);
+        let vanishing = at_point(g, &vanishing, &[&controls, &at_rest, values]);
+        let vanishing = other_than_zero(g, vanishing);
         let slopes: Vec<Expr> = own.characteristics.basis.concat();
-        let slopes = at_point(g, &slopes, &[&controls, values]);
+        let slopes = at_point(g, &slopes, &[&controls, &at_rest, values]);
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
             return Err(LinearizationError::NotAutonomous.into());
         }
-        let coordinates = own.coordinates.iter().map(|&j| &system.coordinates[j]);
+        let is_unknown = |j: &usize| {
+            own.coordinates.contains(j)
+                || (asked.sought == Sought::Rest
+                    && g.any_contains_any(&vanishing, &[system.coordinates[*j].q_symbol]))
+        };
+        let coordinates: Vec<usize> = (0..system.n()).filter(is_unknown).collect();
+        let named = coordinates.iter().map(|&j| &system.coordinates[j]);
         let mut unknowns: Vec<(Symbol, String)> =
-            coordinates.map(|c| (c.q_symbol, c.name.clone())).collect();
+            named.map(|c| (c.q_symbol, c.name.clone())).collect();
+        let is_free = |symbol: &Symbol| {
+            let own = g.symbol_expr(*symbol);
+            at_rest.iter().all(|(speed, _)| *speed != own)
+        };
         let speeds = own.characteristics.parameters.iter();
-        unknowns.extend(speeds.map(|p| (p.symbol, p.name.clone())));
-        unknowns.extend(implicit.map(|(_, s)| (*s, g.symbol_text(*s))));
+        let speeds = speeds.map(|p| (p.symbol, p.name.clone()));
+        let implicit = implicit.map(|(_, s)| (*s, g.symbol_text(*s)));
+        unknowns.extend(speeds.chain(implicit).filter(|(symbol, _)| is_free(symbol)));
         Ok(Equations {
             system,
+            sought: asked.sought,
             values: values.to_vec(),
             vanishing,
             slopes: moving(g, slopes),
             unknowns,
+            coordinates,
             own,
         })
     }
@@ -208,12 +276,21 @@ impl<'a> Equations<'a> {
     }
 
     fn speeds(&self) -> Vec<(String, Expr)> {
+        if self.sought == Sought::Rest {
+            return Vec::new();
+        }
         let speeds = self.own.characteristics.parameters.iter();
         speeds.map(|p| (p.name.clone(), p.definition)).collect()
     }
 
+    /// The coordinates that may be anywhere.
+    fn others(&self) -> Vec<usize> {
+        let all = 0..self.system.n();
+        all.filter(|j| !self.coordinates.contains(j)).collect()
+    }
+
     fn ignorable(&self) -> Vec<String> {
-        let all = self.own.ignorable(self.system).into_iter();
+        let all = self.others().into_iter();
         all.map(|j| self.system.coordinates[j].name.clone())
             .collect()
     }
@@ -228,7 +305,7 @@ impl<'a> Equations<'a> {
             .zip(values)
             .map(|((symbol, _), &value)| (g.symbol_expr(*symbol), value))
             .collect();
-        let ignorable = self.own.ignorable(system);
+        let ignorable = self.others();
         let directed = |j: &usize| {
             let own = [system.coordinates[*j].q_symbol];
             g.any_contains_any(&self.own.characteristics.velocities, &own)
@@ -252,8 +329,12 @@ impl<'a> Equations<'a> {
         let (place, velocities) = places
             .find(|(_, velocities)| is_finite(velocities))
             .unwrap_or_else(|| (g.zero(), at(g.zero())));
+        let velocities = match self.sought {
+            Sought::SteadyMotions => velocities,
+            Sought::Rest => vec![g.zero(); system.n()],
+        };
         let position = |j: usize| {
-            let own = self.own.coordinates.iter().position(|&own| own == j);
+            let own = self.coordinates.iter().position(|&own| own == j);
             let origin = directed.contains(&j).then_some(place);
             own.map(|at| values[at]).or(origin)
         };
@@ -299,6 +380,23 @@ fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
     all
 }
 
+/// Forces that jump where a velocity vanishes, as dry friction does, hold a system at rest in more places than the equations have zeros.
+fn jumps_at_rest(g: &Graph, vanishing: &[Expr]) -> Result<(), SteadySetError> {
+    let is_jump = |e: &Expr| {
+        let jumping = [Function::Sign, Function::Atan2];
+        matches!(g.node(*e), Node::Apply { function, .. } if jumping.contains(function))
+    };
+    match g.reachable(vanishing).into_iter().find(is_jump) {
+        Some(e) => Err(SteadySetError::NotPolynomial { what: g.text(e) }),
+        None => Ok(()),
+    }
+}
+
+/// The expressions that are not zero by their form.
+fn other_than_zero(g: &Graph, es: Vec<Expr>) -> Vec<Expr> {
+    es.into_iter().filter(|&e| !g.is_zero(e)).collect()
+}
+
 /// The expressions that are no numbers.
 fn moving(g: &Graph, es: Vec<Expr>) -> Vec<Expr> {
     es.into_iter()
@@ -341,7 +439,7 @@ fn unknowns(
         found.push(Unknown {
             symbol: *symbol,
             name: name.clone(),
-            is_speed: at >= equations.own.coordinates.len(),
+            is_speed: at >= equations.coordinates.len(),
             by,
         });
     }

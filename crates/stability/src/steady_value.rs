@@ -16,16 +16,19 @@ pub enum SteadySetError {
     #[error(transparent)]
     System(Box<LinearizationError>),
     /// Something that is neither polynomial nor a sine, cosine or root of an unknown.
-    #[error("the equations of steady motion are not polynomial in the unknowns and their sines and cosines: they contain {what}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    #[error("the equations of steady motion are not polynomial in the unknowns and their sines and cosines: they contain {what}")]
     NotPolynomial {
         /// It.
         what: String,
     },
+    /// They have no value.
+    #[error("the equations are not defined there, whatever the positions: a denominator vanishes")]
+    Undefined,
     /// The equations are too large.
-    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
-    Form(#[from] NormalFormError),
+    #[error("the equations of steady motion are too large to be solved exactly: {0}")]
+    Form(NormalFormError),
     /// Their solution is.
-    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    #[error("the equations of steady motion are too large to be solved exactly: {0}")]
     TooLarge(#[from] TooLarge),
     /// The real zeros of a polynomial were not told apart.
     #[error("the real zeros of {polynomial} were not enclosed one by one")]
@@ -33,6 +36,15 @@ pub enum SteadySetError {
         /// The polynomial.
         polynomial: String,
     },
+}
+
+impl From<NormalFormError> for SteadySetError {
+    fn from(problem: NormalFormError) -> SteadySetError {
+        match problem {
+            NormalFormError::Undefined => SteadySetError::Undefined,
+            other => SteadySetError::Form(other),
+        }
+    }
 }
 
 impl From<LinearizationError> for SteadySetError {

@@ -6,7 +6,7 @@
     reason = "an error is made once, and told at once"
 )]
 
-mod text;
+pub(crate) mod text;
 
 pub(crate) use text::hopf;
 
@@ -207,7 +207,8 @@ fn state(
     Ok((motion.name.clone(), point))
 }
 
-fn of_motion(
+/// A motion that is stated, in numbers.
+pub(crate) fn of_motion(
     motion: &SteadyMotion,
     system: &System,
     prepared: &Prepared,

@@ -1,14 +1,19 @@
-//! All steady motions of a model: `chetaev steady`.
+//! All steady motions of a model: `chetaev steady`; those near starts, in numbers, where their equations cannot be solved exactly.
 #![allow(
     clippy::result_large_err,
     reason = "an error is made once, and told at once"
 )]
 
+mod search;
+
+pub use search::{Near, Search};
+
+use crate::follow::FollowError;
 use crate::stability::error::StabilityError;
 use crate::start;
 use chetaev_mechanics::System;
 use chetaev_model::Model;
-use chetaev_stability::steady_set::{steady_set, Found, SteadySet, Value};
+use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
 use chetaev_symbolic::Graph;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -18,17 +23,27 @@ use std::fmt::Write as _;
 pub struct Steady {
     /// The system.
     pub system: System,
-    /// All of them.
-    pub set: SteadySet,
+    /// Which.
+    pub motions: Motions,
     /// Whether parameters stayed symbols, so that their values are in general position.
     pub is_symbolic: bool,
 }
 
-/// The steady motions of a model for the values of its parameters, or for values in general position.
+/// Steady motions that were found.
+#[derive(Debug)]
+pub enum Motions {
+    /// All of them, exactly.
+    All(Box<SteadySet>),
+    /// Some, in numbers.
+    Near(Box<Search>),
+}
+
+/// The steady motions of a model for the values of its parameters, or for values in general position. Where the equations for the values are not
+/// solved exactly those near starts are sought in numbers.
 ///
 /// # Errors
-/// [`StabilityError`].
-pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError> {
+/// [`FollowError`].
+pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, FollowError> {
     let system = System::from_model(model)?;
     let prepared = start::prepared(model, &system)?;
     let values = if is_symbolic {
@@ -36,9 +51,17 @@ pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError
     } else {
         system.parameter_values()
     };
-    let set = steady_set(&system, &prepared.terms, &prepared.selection, &values)?;
+    let found = steady_set(&system, &prepared.terms, &prepared.selection, &values);
+    let motions = match found {
+        Ok(set) => Motions::All(Box::new(set)),
+        // Without a closed system there is nothing to search in.
+        Err(why) if is_symbolic || matches!(why, SteadySetError::System(_)) => {
+            return Err(StabilityError::from(why).into());
+        }
+        Err(why) => Motions::Near(Box::new(search::search(model, (&system, &prepared), why)?)),
+    };
     Ok(Steady {
-        set,
+        motions,
         system,
         is_symbolic,
     })
@@ -47,7 +70,14 @@ pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError
 impl Steady {
     /// The motions in words.
     pub fn text(&self) -> String {
-        let (g, set) = (&self.system.graph, &self.set);
+        match &self.motions {
+            Motions::All(set) => self.text_of_all(set),
+            Motions::Near(search) => search.text(&self.system.name),
+        }
+    }
+
+    fn text_of_all(&self, set: &SteadySet) -> String {
+        let g = &self.system.graph;
         let mut text = format!("{}: motions along which ", self.system.name);
         let _ = match set.ignorable.as_slice() {
             [] => writeln!(text, "{} are constant", set.variables.join(", ")),
@@ -68,23 +98,16 @@ impl Steady {
         text.push('\n');
         text.push_str(&lines(g, set));
         text.push('\n');
-        let _ = writeln!(text, "{}", self.completeness());
-        for e in &set.excluded {
-            let _ = writeln!(
-                text,
-                "Nothing is said where {} vanishes: the equations are not defined there.",
-                g.text(*e)
-            );
-        }
-        if !set.has_full_rank {
-            text.push_str("Nothing is said of states at which the gradients of the constraints depend on each other.\n");
+        let _ = writeln!(text, "{}", self.completeness(set));
+        for sentence in set.left_out(g) {
+            let _ = writeln!(text, "{sentence}");
         }
         text
     }
 
-    fn completeness(&self) -> &'static str {
-        match (self.set.found.is_empty(), self.is_symbolic) {
-            (true, _) if !self.set.excluded.is_empty() => "None was found where the equations are defined: they are polynomial in the variables, their sines and cosines, and were solved exactly.",
+    fn completeness(&self, set: &SteadySet) -> &'static str {
+        match (set.found.is_empty(), self.is_symbolic) {
+            (true, _) if !set.excluded.is_empty() => "None was found where the equations are defined: they are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (true, _) => "There are none: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (false, false) => "These are all: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
             (false, true) => "These are all for parameters in general position: the equations are polynomial in the variables, their sines and cosines, and were solved exactly. For special values there may be others.",
@@ -93,7 +116,14 @@ impl Steady {
 
     /// The motions as data.
     pub fn json(&self) -> serde_json::Value {
-        let (g, set) = (&self.system.graph, &self.set);
+        match &self.motions {
+            Motions::All(set) => self.json_of_all(set),
+            Motions::Near(search) => search.json(&self.system.name),
+        }
+    }
+
+    fn json_of_all(&self, set: &SteadySet) -> serde_json::Value {
+        let g = &self.system.graph;
         let text = |e: &chetaev_symbolic::Expr| g.text(*e);
         let texts = |all: &[chetaev_symbolic::Expr]| all.iter().map(text).collect::<Vec<_>>();
         let motion = |own: &Found| {
@@ -146,38 +176,7 @@ pub(crate) fn lines(g: &Graph, set: &SteadySet) -> String {
 }
 
 fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
-    let values = set.variables.iter().zip(&own.values).enumerate();
-    let values = values.filter_map(|(at, (name, value))| match value {
-        Value::Number {
-            exact: Some(e),
-            ball,
-        } => Some(number(g, name, *e, ball.to_f64())),
-        Value::Number { exact: None, ball } => {
-            let (low, high) = ball.to_decimal_interval(16);
-            Some(format!("{name} in [{low}, {high}]"))
-        }
-        Value::Function(e) if own.free.iter().any(|(_, free)| *free == at) => {
-            Some(format!("{name} = {}, free", g.text(*e)))
-        }
-        Value::Function(e) => Some(format!("{name} = {}", g.text(*e))),
-        Value::Tied => None,
-    });
-    let mut parts: Vec<String> = values.collect();
-    parts.extend(own.equations.iter().map(|&e| format!("{} = 0", g.text(e))));
-    let needed = own.conditions.iter();
-    parts.extend(needed.map(|&e| format!("where {} >= 0", g.text(e))));
-    if !own.is_real {
-        parts.push("no real motion of this family was found at the places tried".into());
-    }
-    if own.is_singular {
-        parts.push(
-            "the mass matrix is singular there, and the equations determine no accelerations"
-                .into(),
-        );
-    }
-    if !own.is_assumed {
-        parts.push("outside of what the model assumes".into());
-    }
+    let parts = set.parts(g, own);
     match own.dimension() {
         0 => format!("  {}  {}\n", own.name, parts.join(", ")),
         count => {
@@ -188,15 +187,5 @@ fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
                 parts.join("\n       ")
             )
         }
-    }
-}
-
-/// `theta = acos(109/200) = 0.99439…`; a rational number as it is.
-fn number(g: &Graph, name: &str, exact: chetaev_symbolic::Expr, value: f64) -> String {
-    let text = g.text(exact);
-    if g.as_number(exact).is_some_and(|r| r.is_int()) {
-        format!("{name} = {text}")
-    } else {
-        format!("{name} = {text} = {value:.12}")
     }
 }

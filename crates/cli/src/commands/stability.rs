@@ -149,7 +149,7 @@ pub(crate) fn find(arguments: &Steady) -> u8 {
             });
             DONE
         }
-        Err(problem) => refuse(&read, problem),
+        Err(problem) => super::follow::refuse(&read, problem),
     }
 }
 

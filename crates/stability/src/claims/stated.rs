@@ -86,7 +86,7 @@ fn steadiness(question: &Question) -> String {
 }
 
 /// What a motion that is not admissible or not steady comes to.
-fn refused(problem: LinearizationError) -> Verdict {
+pub(super) fn refused(problem: LinearizationError) -> Verdict {
     let sentence = problem.to_string();
     match problem {
         LinearizationError::NotAdmissible {

@@ -2,6 +2,7 @@
 
 use super::Followed;
 use chetaev_orbits::branch::{End, Kind, Point, Special};
+use chetaev_stability::eigenvalues::Complex;
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -167,25 +168,11 @@ impl Followed {
     /// Where the eigenvalues lie that structure does not give.
     fn stability(&self, point: &Point) -> &'static str {
         let values = &point.spectrum.values;
-        let size = values
-            .iter()
-            .map(|l| l.norm())
-            .fold(f64::MIN_POSITIVE, f64::max);
-        let beyond = if self.is_orbit {
-            values
-                .iter()
-                .map(|l| l.norm() - 1.0)
-                .fold(f64::NEG_INFINITY, f64::max)
+        if self.is_orbit {
+            let beyond = values.iter().map(|l| l.norm() - 1.0);
+            border(beyond.fold(f64::NEG_INFINITY, f64::max))
         } else {
-            values
-                .iter()
-                .map(|l| l.re / size)
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        match beyond {
-            x if x < -ON_AXIS => "stable",
-            x if x > ON_AXIS => "unstable",
-            _ => "linearly on the border",
+            where_eigenvalues_lie(values)
         }
     }
 
@@ -249,6 +236,22 @@ impl Followed {
     }
 }
 
+/// What eigenvalues say that structure does not give: where they lie, in parts of the largest.
+pub(crate) fn where_eigenvalues_lie(values: &[Complex<f64>]) -> &'static str {
+    let sizes = values.iter().map(|l| l.norm());
+    let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
+    let beyond = values.iter().map(|l| l.re / size);
+    border(beyond.fold(f64::NEG_INFINITY, f64::max))
+}
+
+fn border(beyond: f64) -> &'static str {
+    match beyond {
+        x if x < -ON_AXIS => "stable",
+        x if x > ON_AXIS => "unstable",
+        _ => "linearly on the border",
+    }
+}
+
 /// A Hopf point with what is born there.
 pub(crate) fn hopf(frequency: f64, coefficient: f64) -> String {
     if coefficient == 0.0 {
@@ -283,7 +286,7 @@ fn ending(end: End, name: &str) -> String {
 }
 
 /// No minus before what is zero as it is printed.
-fn plain(x: f64) -> f64 {
+pub(crate) fn plain(x: f64) -> f64 {
     if x.abs() < 5e-7 {
         0.0
     } else {
@@ -291,7 +294,8 @@ fn plain(x: f64) -> f64 {
     }
 }
 
-fn number(re: f64, im: f64) -> String {
+/// A complex number to six places.
+pub(crate) fn number(re: f64, im: f64) -> String {
     let (re, im) = (plain(re), plain(im));
     if im == 0.0 {
         format!("{re:.6}")
