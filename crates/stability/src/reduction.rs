@@ -157,7 +157,12 @@ impl ClosedSystem {
         let zero = |c: &Coordinate| (c.v, g.zero());
         let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(zero).collect();
         let speeds = self.characteristics.parameters.iter();
-        let own = speeds.map(|p| (g.symbol_expr(p.symbol), g.substitute(p.definition, &at_rest)));
+        let own = speeds.map(|p| {
+            (
+                g.symbol_expr(p.symbol),
+                g.substitute(p.definition, &at_rest),
+            )
+        });
         own.chain(at_rest.iter().copied()).collect()
     }
 

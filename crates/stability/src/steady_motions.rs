@@ -51,7 +51,9 @@ impl SteadySet {
         let mut all: Vec<String> = excluded
             .map(|&e| {
                 let where_ = g.text(e);
-                format!("Nothing is said where {where_} vanishes: the equations are not defined there.")
+                format!(
+                    "Nothing is said where {where_} vanishes: the equations are not defined there."
+                )
             })
             .collect();
         if !self.has_full_rank {

@@ -46,11 +46,7 @@ pub fn steady_set(
     selection: &Selection,
     values: &[(Expr, Expr)],
 ) -> Result<SteadySet, SteadySetError> {
-    all_of(
-        Sought::SteadyMotions,
-        (system, terms, selection),
-        values,
-    )
+    all_of(Sought::SteadyMotions, (system, terms, selection), values)
 }
 
 /// The states of rest, or all steady motions.

@@ -32,7 +32,7 @@ impl Claim for Multipliers {
          multiplier's term make the density of the level above. The semi-inverse method (He 1997) builds the same density field by field: \
          to the terms of the fields before an unknown function F of the others is added, and the Euler equation of the next field \
          shows what F contains of it. Each step is proved: what is left has none of the field, and the Euler equation of the field follows from \
-         the equations named."
+         the equations named; an Euler equation that the level above does not state is said to be none of them."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -299,15 +299,21 @@ impl Way<'_> {
             let of_field = of_field.filter(|(c, _)| field.components.contains(c));
             let euler: Vec<Expr> = of_field.map(|(_, value)| *value).collect();
             let found = vanishing(above, &euler, &equations(above, None, STATED));
-            let (_, needed) = found.map_err(|verdict| {
-                let what = format!("the Euler equation of {} does not follow", field.name);
-                Box::new(verdict.prefixed(&what))
-            })?;
+            let needed = match found {
+                Ok((_, needed)) if needed.is_empty() => Needed::Nothing,
+                Ok((_, needed)) => Needed::Stated(labels(&needed)),
+                // What is stated decides nothing here: the equation holds where the functional is stationary.
+                Err(verdict) if matches!(*verdict, Verdict::Refuted(_)) => Needed::Own,
+                Err(verdict) => {
+                    let what = format!("whether the Euler equation of {} follows", field.name);
+                    return Err(Box::new(verdict.prefixed(&what)));
+                }
+            };
             let step = formulas.len() + 1;
-            let from = if needed.is_empty() {
-                "vanishes identically".to_owned()
-            } else {
-                format!("follows from {}", labels(&needed))
+            let from = match &needed {
+                Needed::Nothing => "vanishes identically".to_owned(),
+                Needed::Stated(labels) => format!("follows from {labels}"),
+                Needed::Own => "follows from none of the equations stated there".to_owned(),
             };
             let caption = format!(
                 "{step}. what {} adds for {}, whose Euler equation {from}",
@@ -317,10 +323,13 @@ impl Way<'_> {
             let span = above.tree.span;
             let added = Formula::new(caption, g.add(&values));
             formulas.push(added.written(&Node { kind, span }, &above.scope));
-            said.push(if needed.is_empty() {
-                field.name.clone()
-            } else {
-                format!("{} with {}", field.name, labels(&needed))
+            said.push(match &needed {
+                Needed::Nothing => field.name.clone(),
+                Needed::Stated(labels) => format!("{} with {labels}", field.name),
+                Needed::Own => format!(
+                    "{} with its Euler equation, which {} does not state",
+                    field.name, above.name
+                ),
             });
         }
         Ok(said.join(", "))
@@ -345,6 +354,15 @@ fn modulo(needed: &[String]) -> String {
         [] => String::new(),
         some => format!(", modulo {}", labels(some)),
     }
+}
+
+/// From what the Euler equation of a field follows.
+enum Needed {
+    Nothing,
+    /// The labels of equations.
+    Stated(String),
+    /// From no equation that is stated.
+    Own,
 }
 
 /// A term of a density with its sign.

@@ -118,6 +118,60 @@ fn nothing_is_carried_from_an_end_where_the_equations_are_singular() {
     assert_eq!(word, "proved", "{detail}");
 }
 
+const GIVEN: [(&str, &str); 2] = [("x = 0", ""), ("x = 1", "")];
+
+/// Fields that begin alike part where the equations have roots of them: u'' = 12 √|u| has u = x⁴ besides 0, u'' = 6 u^(2/3) has x⁶/125, and
+/// u'' = u^(1/3) has 6^(−3/2) x³. Where the right side changes at most in proportion to u they do not.
+#[test]
+fn nothing_is_carried_along_equations_that_are_not_lipschitz() {
+    let start = ["x = 0: u = 0", "x = 0: u,x = 0"];
+    let word = |energy: &str| {
+        let density = format!("1/2 u,x^2 + {energy}");
+        euler(&density, &GIVEN, &start, &["u = 0"])
+    };
+    for energy in [
+        "8 abs(u)^(3/2)",
+        "18/5 u^(5/3)",
+        "3/4 abs(u)^(4/3)",
+        "3/4 u^(4/3)",
+        "1/2 u^2 + 18/5 u^(5/3)",
+    ] {
+        let (word, detail) = word(energy);
+        assert_eq!(word, "undecided", "{energy}: {detail}");
+    }
+    for energy in [
+        "u^4",
+        "1/2 u^2",
+        "2/5 abs(u)^(5/2)",
+        "sqrt(1 + u^2)",
+        "cos(u)",
+    ] {
+        let (word, detail) = word(energy);
+        assert_eq!(word, "proved", "{energy}: {detail}");
+    }
+    let (word, detail) = euler(
+        "1/2 u,y^2 + 18/5 u^(5/3)",
+        &[("x = 0", ""), ("x = 1", ""), ("y = 0", ""), ("y = 1", "")],
+        &["y = 0: u = 0", "y = 0: u,y = 0"],
+        &["u = 0"],
+    );
+    assert_eq!(word, "undecided", "{detail}");
+}
+
+/// With u' = 1 and u(0) = 0 the field is x: its square vanishes at the end with its rate 2 u u', and nowhere else.
+#[test]
+fn a_power_is_not_carried_along_by_its_own_rate() {
+    let stated = |last| ["u,x = 1", "p,x = 0", last];
+    for (last, expected) in [("u^2 = 0", "refuted"), ("u = x", "proved")] {
+        let (word, detail) = euler("p (u,x - 1)", &GIVEN, &["x = 0: u = 0"], &stated(last));
+        assert_eq!(word, expected, "{last}: {detail}");
+    }
+    // What a square says of its base is carried along.
+    let start = ["x = 0: u = 0", "x = 0: u,x = 0"];
+    let (word, detail) = euler("1/2 u,x^2 + 1/2 u^2", &GIVEN, &start, &["u^2 = 0"]);
+    assert_eq!(word, "proved", "{detail}");
+}
+
 /// Each of these systems has one solution, or those that are stated, by what its ends enforce together: no jet refutes them.
 #[test]
 fn what_conditions_enforce_together_is_not_refuted() {

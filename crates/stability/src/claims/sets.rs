@@ -112,7 +112,11 @@ fn listed(g: &Graph, set: &SteadySet, sought: Sought) -> String {
     }
     let isolated = regular.iter().filter(|own| own.dimension() == 0).count();
     let counts = [
-        counted(isolated, &format!("isolated {one}"), &format!("isolated {many}")),
+        counted(
+            isolated,
+            &format!("isolated {one}"),
+            &format!("isolated {many}"),
+        ),
         counted(regular.len() - isolated, "family", "families"),
     ];
     let counts: Vec<String> = counts.into_iter().flatten().collect();

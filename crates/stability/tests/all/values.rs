@@ -154,7 +154,9 @@ over = "p"
     assert!(roots.starts_with("p = -1.414213562373095"), "{roots}");
     assert!(roots.contains(" or p = 1.414213562373095"), "{roots}");
     assert_eq!(
-        driven("(p^2 + 1) z").verdict("stability.linear", "s").word(),
+        driven("(p^2 + 1) z")
+            .verdict("stability.linear", "s")
+            .word(),
         "refuted"
     );
     // At p = 0 z drives x, and x is driven itself: two vanish at different values, and no value leaves all bounded.

@@ -523,7 +523,10 @@ over = "{over}"
     let Verdict::Proved(proof) = case.verdict("stability.critical", "eps") else {
         panic!("{}", case.said("stability.critical", "eps"));
     };
-    assert!(proof.detail.contains("changes at eps = 27/125 ("), "{proof:?}");
+    assert!(
+        proof.detail.contains("changes at eps = 27/125 ("),
+        "{proof:?}"
+    );
 
     // With ε = 0.3 it is stable where α < 0.3/(2 · 0.216).
     let of_valve = Case::new(&text("alpha", "alpha > 0"));

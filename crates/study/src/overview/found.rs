@@ -46,6 +46,7 @@ pub fn found(study: &Study) -> Vec<Found> {
     all.extend(quadratures(study));
     all.extend(action(study));
     all.extend(multiplier(study));
+    all.extend(steady::sets(study));
     all.extend(steady::found(study));
     all.extend(formulations(study));
     all.extend(undecided(study));

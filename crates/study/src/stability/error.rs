@@ -48,7 +48,9 @@ pub enum StabilityError {
         name: String,
     },
     /// Steady motions were not found.
-    #[error("{0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    #[error(
+        "{0}; a motion of which positions and velocities are known can be stated as [steady.NAME]"
+    )]
     SteadySet(#[from] SteadySetError),
     /// A value for something that has none.
     #[error("--at {text}: {why}")]

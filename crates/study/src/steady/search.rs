@@ -178,20 +178,16 @@ impl Search {
             let values: Vec<String> = values
                 .map(|(name, x)| format!("{name} = {:.9}", plain(*x)))
                 .collect();
-            let from = own.from.as_ref().map_or(String::new(), |from| {
-                format!(", near `{from}`")
-            });
+            let from = own
+                .from
+                .as_ref()
+                .map_or(String::new(), |from| format!(", near `{from}`"));
             let _ = writeln!(text, "  {}  {}{from}", at + 1, values.join(", "));
             if own.family > 0 {
-                let _ = writeln!(
-                    text,
-                    "       one of a family of dimension {}",
-                    own.family
-                );
+                let _ = writeln!(text, "       one of a family of dimension {}", own.family);
             }
             let spectrum = &own.point.spectrum.values;
-            let eigenvalues: Vec<String> =
-                spectrum.iter().map(|l| number(l.re, l.im)).collect();
+            let eigenvalues: Vec<String> = spectrum.iter().map(|l| number(l.re, l.im)).collect();
             let _ = writeln!(
                 text,
                 "       eigenvalues {}: {}",
@@ -208,11 +204,7 @@ impl Search {
             }
         );
         if !self.ignorable.is_empty() {
-            let _ = writeln!(
-                text,
-                "Nothing depends on {}.",
-                self.ignorable.join(", ")
-            );
+            let _ = writeln!(text, "Nothing depends on {}.", self.ignorable.join(", "));
         }
         text
     }

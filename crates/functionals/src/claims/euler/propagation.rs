@@ -3,13 +3,17 @@
 //!
 //! Equations are compared at one place, and there `E I u'' = P (1 − x)` does not follow from `E I u''' = −P`. But along x the difference obeys
 //! a linear equation of its own, with the equations of the body: where it vanishes at an end with as many of its derivatives as are needed,
-//! it vanishes everywhere (the theorem of uniqueness, Lipschitz 1876). So no jet inside refutes it.
+//! it vanishes everywhere (the theorem of uniqueness, Lipschitz 1876). So no jet inside refutes it. Fields may stand in the equation, as in
+//! u'' = u³, where it grows at most in proportion to what vanishes.
 
 use super::comparison::{AtEnd, Comparison};
 use crate::elimination::{Entries, Group, Pivot, Solved};
 use crate::functional::{Piece, Side};
+use crate::smoothness::guard_of;
 use crate::variation::OnPiece;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::zero::assumptions::is_implied;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{Expr, Function, Node, Rational};
 
 /// So many derivatives are tried.
 const MOST: usize = 4;
@@ -58,28 +62,68 @@ impl<'f> Comparison<'f> {
         solved.divisors.iter().all(is_free) && !solved.pivots.iter().any(of_fields)
     }
 
-    /// The expression and its derivatives along an axis, up to the one that vanishes where those before it do.
+    /// What vanishes with an expression and with its derivatives along an axis: jets less their values, whose rates along the axis vanish where
+    /// these do, at most in proportion to them.
     fn chain(&self, e: Expr, inside: &Solved<'f>, axis: usize) -> Option<Vec<Expr>> {
         let space = &*self.functional.space;
         self.is_regular_everywhere(inside).then_some(())?;
         let mut chain = vec![inside.normal(e)];
         for _ in 0..MOST {
-            let last = *chain.last()?;
-            // A restriction of data is none that conditions enforce.
-            self.has_fields(last).then_some(())?;
-            let next = inside.normal(space.total(last, axis));
             let group = Group {
                 label: "an expression that is carried along".into(),
                 equations: chain.clone(),
             };
             let closed = inside.with_at_corner(&[group]);
-            if closed.follows(&[next]) && self.is_regular_everywhere(&closed) {
-                self.divided_by(&closed);
-                return Some(chain);
+            let carried = closed.beyond(inside);
+            // A restriction of data is none that conditions enforce.
+            carried.iter().all(|&e| self.has_fields(e)).then_some(())?;
+            let rates = carried.iter().map(|&e| space.total(e, axis));
+            let rates: Vec<Expr> = rates.map(|e| inside.normal(e)).collect();
+            let open = rates.iter().copied().filter(|&e| !closed.follows(&[e]));
+            let open: Vec<Expr> = open.collect();
+            if !open.is_empty() {
+                chain.extend(open);
+                continue;
             }
-            chain.push(next);
+            let are_solved = closed.jets_beyond(inside).len() == carried.len();
+            let mut all = carried.iter().chain(&rates);
+            let is_proportional = are_solved && all.all(|&e| self.is_lipschitz(e));
+            return (is_proportional && self.is_regular_everywhere(&closed)).then(|| {
+                self.divided_by(&closed);
+                carried
+            });
         }
         None
+    }
+
+    /// Whether a function changes at most in proportion to the fields in it: no root of a field, as in u'' = √u, of which u = 0 and
+    /// u = x⁴/144 begin alike, and no quotient by one.
+    fn is_lipschitz(&self, e: Expr) -> bool {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let nodes = g.reachable(&[space.explicit(e)]).into_iter();
+        let mut of_fields = nodes.filter(|&node| self.has_fields(node));
+        of_fields.all(|node| {
+            let is_kink = matches!(
+                g.node(node),
+                Node::Apply {
+                    function: Function::Abs,
+                    ..
+                }
+            );
+            let is_high = match g.node(node) {
+                Node::Power { exponent, .. } => {
+                    let power = g.as_number(*exponent);
+                    power.is_some_and(|own| *own >= Rational::ONE)
+                }
+                _ => false,
+            };
+            is_kink
+                || is_high
+                || guard_of(g, node).is_none_or(|(inner, relation)| {
+                    is_implied(relation, known_sign(g, inner, &space.assumptions()))
+                })
+        })
     }
 
     fn has_fields(&self, e: Expr) -> bool {

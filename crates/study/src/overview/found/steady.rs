@@ -1,6 +1,6 @@
 //! Steady motions and their stability.
 
-use super::{condition, verdict, Found};
+use super::{condition, lead, verdict, Found};
 use crate::study::{Decided, Study};
 use chetaev_symbolic::Verdict;
 
@@ -10,6 +10,17 @@ const ASKED: [(&str, &str); 3] = [
     ("stability.asymptotic", "asymptotically stable"),
     ("stability.spectral", "spectrally stable"),
 ];
+
+/// All steady motions; where these were not found, all states of rest.
+pub(super) fn sets(study: &Study) -> Option<Found> {
+    let proved = |claim: &str| {
+        let decided = verdict(study, claim, None)?;
+        matches!(decided.finding.verdict, Verdict::Proved(_)).then_some(decided)
+    };
+    let decided = proved("steady.motions").or_else(|| proved("equilibrium.states"))?;
+    let sentence = lead(study, decided.finding.verdict.detail());
+    Some(Found::new("steady motions", sentence, &[decided]))
+}
 
 /// Each stated steady motion with what is known of its stability.
 pub(super) fn found(study: &Study) -> Option<Found> {
