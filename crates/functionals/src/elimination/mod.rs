@@ -476,11 +476,14 @@ impl<'s> Solved<'s> {
     /// A group that is left by its label, and what is left of it where that is short.
     pub fn named(&self, group: &Group) -> String {
         let texts = group.equations.iter().map(|&e| self.space.graph.text(e));
+        let label = if group.label.starts_with("the ") {
+            group.label.clone()
+        } else {
+            format!("`{}`", group.label)
+        };
         match texts.collect::<Vec<_>>().as_slice() {
-            [text] if text.len() <= LONGEST_NAMED => {
-                format!("`{}`, that is {text} = 0,", group.label)
-            }
-            _ => format!("`{}`", group.label),
+            [text] if text.len() <= LONGEST_NAMED => format!("{label}, that is {text} = 0,"),
+            _ => label,
         }
     }
 

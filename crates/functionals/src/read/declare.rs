@@ -62,15 +62,32 @@ impl Reader<'_> {
             &["coordinates", "time", "intervals", "boundary"],
             "[domain]",
         );
-        let raw = domain.get("coordinates")?;
+        let Some(raw) = domain.get("coordinates") else {
+            let place = table.get("domain").map_or(place, |raw| raw.place);
+            self.push(
+                Diagnostic::error("missing-key", place, "[domain] has no coordinates").hint(
+                    "add coordinates = [\"x\", \"y\"], or coordinates = \"x_i\" with [sizes] d = 2",
+                ),
+            );
+            return None;
+        };
         let texts = self.texts(raw, "coordinates");
         let mut found = Vec::new();
         for text in &texts {
             match text.content.split_once('_') {
                 Some((letter, "i")) => {
-                    let d = sizes.get("d").copied().unwrap_or(0);
+                    let stated = sizes.get("d").copied();
+                    let d = stated.unwrap_or(0);
                     if !(1..=MOST_DIMENSIONS).contains(&d) {
-                        let message = format!("the size `d` must be 1, 2 or 3, and is {d}");
+                        let message = match stated {
+                            Some(d) => format!("the size `d` must be 1, 2 or 3, and is {d}"),
+                            // A size that is none was told where it stands.
+                            None if self.has_size(table, "d") => return None,
+                            None => format!(
+                                "the size `d` of the coordinates `{}` is not stated",
+                                text.content
+                            ),
+                        };
                         self.push(
                             Diagnostic::error("bad-size", self.place_of_size(table, raw), message)
                                 .hint("state [sizes] d = 2, or give --set d=2"),
@@ -112,9 +129,19 @@ impl Reader<'_> {
             if !self.is_free(&time) {
                 return None;
             }
+            if found.iter().any(|(before, ..)| *before == time.content) {
+                self.is_twice(&time.content, time.place);
+                return None;
+            }
             found.push((time.content.clone(), time.content, true));
         }
         Some(found)
+    }
+
+    fn has_size(&self, table: &Table, name: &str) -> bool {
+        let sizes = table.get("sizes").and_then(Raw::table);
+        sizes.is_some_and(|own| own.get(name).is_some())
+            || self.overrides.iter().any(|(own, _)| own.content == name)
     }
 
     fn place_of_size(&self, table: &Table, otherwise: &Raw) -> Place {

@@ -17,6 +17,7 @@ pub(crate) use zero::not_sought;
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use constitution::{Application, Rule};
+use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -89,6 +90,8 @@ pub struct Space {
     assumptions: RefCell<Assumptions>,
     /// Whether expressions vanish, as far as that was asked.
     vanishing: RefCell<BTreeMap<Expr, bool>>,
+    /// The symbols that occur in an expression, those of functions too. The same ones are asked for at each step of an elimination.
+    symbols: RefCell<FxHashMap<Expr, Rc<[Symbol]>>>,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -147,6 +150,7 @@ impl Space {
             conjugations: RefCell::default(),
             assumptions: RefCell::default(),
             vanishing: RefCell::default(),
+            symbols: RefCell::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }
@@ -265,6 +269,9 @@ impl Space {
         let wanted = self.jet(jet.component, &jet.by);
         let symbol = self.graph.as_symbol(wanted);
         let one = self.graph.one();
+        if !symbol.is_some_and(|own| self.depends(e, own)) {
+            return self.graph.zero();
+        }
         self.derive(e, &|s| (Some(s) == symbol).then_some(one))
     }
 
@@ -298,7 +305,7 @@ impl Space {
     pub fn replace(&self, e: Expr, value: &dyn Fn(Symbol) -> Option<Expr>) -> Expr {
         let g = &self.graph;
         let mut pairs = Vec::new();
-        for symbol in g.symbols_in(&[e]) {
+        for &symbol in self.written_in(e).iter() {
             let application = self.applications.borrow().get(&symbol).cloned();
             let new = match application {
                 Some(own) => {
@@ -345,7 +352,7 @@ impl Space {
     /// All symbols that occur, in arguments too, without those of functions.
     pub fn symbols_in(&self, es: &[Expr]) -> BTreeSet<Symbol> {
         let mut found = BTreeSet::new();
-        for symbol in self.graph.symbols_in(es) {
+        for symbol in es.iter().flat_map(|&e| self.written_in(e).to_vec()) {
             let application = self.applications.borrow().get(&symbol).cloned();
             match application {
                 Some(own) => found.extend(self.symbols_in(&own.arguments)),
@@ -354,6 +361,31 @@ impl Space {
                 }
             }
         }
+        found
+    }
+
+    /// Whether a symbol occurs, in arguments too.
+    fn depends(&self, e: Expr, wanted: Symbol) -> bool {
+        let symbols = self.written_in(e);
+        let applications = self.applications.borrow();
+        let mut all = symbols.iter();
+        all.any(|symbol| {
+            let application = applications.get(symbol);
+            *symbol == wanted
+                || application.is_some_and(|own| {
+                    let mut arguments = own.arguments.iter();
+                    arguments.any(|&argument| self.depends(argument, wanted))
+                })
+        })
+    }
+
+    /// The symbols in an expression, those of functions too, not those in their arguments.
+    fn written_in(&self, e: Expr) -> Rc<[Symbol]> {
+        if let Some(known) = self.symbols.borrow().get(&e) {
+            return Rc::clone(known);
+        }
+        let found: Rc<[Symbol]> = self.graph.symbols_in(&[e]).into_iter().collect();
+        self.symbols.borrow_mut().insert(e, Rc::clone(&found));
         found
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::elimination::{Entries, Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
-use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Variation};
+use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Trace, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::{Cell, RefCell};
@@ -449,11 +449,10 @@ impl<'f> Comparison<'f> {
                     all = all.and(Verdict::Proved(proof));
                 }
                 other => {
-                    let why = if !own.open.is_empty() {
-                        format!(
-                            "{} could not be solved for any field",
-                            own.open.join(" and ")
-                        )
+                    let mut open = own.open;
+                    open.dedup();
+                    let why = if !open.is_empty() {
+                        format!("{} could not be solved for any field", open.join(" and "))
                     } else {
                         other.detail().to_owned()
                     };
@@ -644,7 +643,11 @@ pub(super) fn condition_groups(
     let mut found: Vec<Group> = Vec::new();
     for condition in conditions {
         let tensor = functional.space.component_at(condition.component).tensor;
-        let label = format!("{tensor} on {} {:?}", on.piece, condition.trace);
+        let of = match condition.trace {
+            Trace::Value => "",
+            Trace::Normal => "the normal derivative of ",
+        };
+        let label = format!("the natural condition of {of}{tensor} on {}", on.piece);
         match found.iter_mut().find(|group| group.label == label) {
             Some(group) => group.equations.push(condition.value),
             None => found.push(Group {
