@@ -143,13 +143,22 @@ impl Case {
 
     /// The verdict on a claim of this crate, at the values that the model states.
     pub(crate) fn verdict(&self, claim: &str, subject: &str) -> Verdict {
+        self.verdict_on(claim, Some(subject))
+    }
+
+    /// The verdict on a claim that is made of the system as a whole.
+    pub(crate) fn verdict_of_all(&self, claim: &str) -> Verdict {
+        self.verdict_on(claim, None)
+    }
+
+    fn verdict_on(&self, claim: &str, subject: Option<&str>) -> Verdict {
         let registry = Registry::new(&[CLAIMS]);
         let Prepared {
             terms, selection, ..
         } = &self.prepared;
         let cx = Context::new(&self.system, terms, selection, &registry, Prover::default());
         let own = registry.find(claim).unwrap();
-        own.decide(&cx, Some(subject)).verdict
+        own.decide(&cx, subject).verdict
     }
 
     /// `proved`, `refuted`, the condition, or what was tried.

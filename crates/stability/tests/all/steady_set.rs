@@ -331,3 +331,114 @@ V = "cos(al) cos(be)"
         "{narrow:?}"
     );
 }
+
+/// States of rest and steady motions are told with their number; the expected ones are read off the equations.
+#[test]
+fn all_states_of_rest_are_claimed() {
+    let said = |case: &Case, claim: &str| {
+        let found = case.verdict_of_all(claim);
+        format!("{}: {}", found.word(), found.detail())
+    };
+    let starts = |case: &Case, claim: &str, expected: &str| {
+        let found = said(case, claim);
+        assert!(found.starts_with(expected), "{found}");
+    };
+    let rest = "equilibrium.states";
+    let pendulum = Case::gallery("double-pendulum");
+    starts(
+        &pendulum,
+        rest,
+        "proved: 4 isolated states of rest: a = 0, b = 0;",
+    );
+    let disc = Case::gallery("falling-rolling-disc");
+    starts(
+        &disc,
+        rest,
+        "proved: one isolated state of rest: theta = 0; ",
+    );
+    starts(&disc, "steady.motions", "proved: 2 families: ");
+    let sleigh = Case::gallery("chaplygin-sleigh");
+    starts(&sleigh, rest, "proved: the system rests in every position");
+    // The shaft of the governor turns, and only so its arms stand.
+    let governor = Case::gallery("watt-governor");
+    starts(&governor, rest, "proved: there is no state of rest");
+    starts(
+        &governor,
+        "steady.motions",
+        "proved: 4 isolated steady motions: ",
+    );
+    // A bead on a hoop that turns with W² = 2 g/R: sin θ (cos θ W² − g/R) = 0.
+    let bead = one("1/2 (th'^2 + 2 sin(th)^2) + cos(th)", "0", "");
+    starts(
+        &bead,
+        rest,
+        "proved: 4 isolated states of rest: th = -acos(1/2) = -1.0471975",
+    );
+    // Where x' = y the system rests for y = 0 only.
+    let carried = Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2)"
+[constraints]
+carried = "x' = y"
+"#,
+    );
+    starts(
+        &carried,
+        rest,
+        "proved: one isolated state of rest: y = 0; x may be anywhere",
+    );
+    // A constraint that no rest satisfies.
+    let driven = Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2)"
+[constraints]
+driven = "x' = 1"
+"#,
+    );
+    starts(&driven, rest, "proved: there is no state of rest");
+    // Dry friction holds it anywhere near the middle.
+    let rubbed = one("1/2 th'^2 - 1/2 th^2", "-1/10 sign(th')", "");
+    starts(&rubbed, rest, "undecided: ");
+    // An exponential is no polynomial.
+    let steep = one("1/2 th'^2 - exp(th) - th", "0", "");
+    starts(
+        &steep,
+        rest,
+        "undecided: the equations of steady motion are not polynomial",
+    );
+    // With the time in its force nothing stays.
+    let shaken = one("1/2 th'^2 - 1/2 th^2", "cos(t)", "");
+    starts(&shaken, rest, "not-applicable: ");
+    // What the model assumes is told apart.
+    let one_side = one(
+        "1/2 th'^2 + cos(th)",
+        "0",
+        "assumptions = [\"cos(th) < 0\"]",
+    );
+    starts(
+        &one_side,
+        rest,
+        "proved: one isolated state of rest: th = pi = 3.14",
+    );
+    assert!(said(&one_side, rest).ends_with(
+        "; one more lies where the mass matrix is singular, or outside of what the model assumes"
+    ));
+}
+
+/// One coordinate with a force.
+fn one(lagrangian: &str, force: &str, further: &str) -> Case {
+    Case::new(&format!(
+        r#"
+{further}
+coordinates = ["th"]
+[lagrangian]
+L = "{lagrangian}"
+[forces]
+th = "{force}"
+"#
+    ))
+}

@@ -5,4 +5,5 @@ mod components;
 mod integrals_along;
 mod linear;
 mod multiplicity;
+mod steady;
 mod steps;

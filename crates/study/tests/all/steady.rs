@@ -1,0 +1,106 @@
+//! Steady motions in numbers, where their equations are not solved exactly.
+#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+use chetaev_model::load;
+use chetaev_study::steady::{steady, Motions, Search};
+use std::collections::BTreeMap;
+
+/// What is found of a model from its starts.
+fn found(text: &str) -> Box<Search> {
+    let loaded = load("near.toml", text, &BTreeMap::new(), &[]);
+    let model = loaded.model.unwrap();
+    match steady(&model, false).unwrap().motions {
+        Motions::Near(found) => found,
+        Motions::All(found) => panic!("all were found: {found:?}"),
+    }
+}
+
+/// The zero of a function between two places of different sign, by halving.
+fn zero(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+    let sign = f(a).signum();
+    for _ in 0..200 {
+        let middle = 0.5 * (a + b);
+        if f(middle).signum() == sign {
+            a = middle;
+        } else {
+            b = middle;
+        }
+    }
+    0.5 * (a + b)
+}
+
+/// An inverted pendulum on a torsion spring is buckled: m g l sin θ = k θ has three zeros, of which the upright one is unstable.
+#[test]
+fn a_buckled_pendulum_has_three_states_of_rest() {
+    let found = found(
+        r#"
+name = "buckled"
+coordinates = ["th"]
+parameters = { k = 5 }
+[lagrangian]
+L = "1/2 th'^2 - 981/100 cos(th) - 1/2 k th^2"
+[initial]
+th = 0.1
+"th'" = 0
+"#,
+    );
+    let aside = zero(|x| 9.81 * x.sin() - 5.0 * x, 1.0, 3.0);
+    let mut places: Vec<f64> = found
+        .found
+        .iter()
+        .map(|own| own.point.unknowns[0])
+        .collect();
+    places.sort_by(f64::total_cmp);
+    assert_eq!(places.len(), 3, "{places:?}");
+    for (place, expected) in places.iter().zip([-aside, 0.0, aside]) {
+        assert!((place - expected).abs() < 1e-12, "{place} {expected}");
+    }
+    let upright = found
+        .found
+        .iter()
+        .find(|own| own.point.unknowns[0].abs() < 1e-9);
+    let upright = &upright.unwrap().point.spectrum.values;
+    let rate = upright.iter().map(|l| l.re).fold(0.0, f64::max);
+    assert!((rate - (9.81_f64 - 5.0).sqrt()).abs() < 1e-9, "{rate}");
+    assert!(found.found.iter().all(|own| own.family == 0));
+}
+
+/// A guess that the model names is a start, and a family is told with its dimension: a blade that goes straight on through a drag that holds a
+/// speed, u eˣᵘ = const has one zero for each heading.
+#[test]
+fn what_a_model_guesses_is_a_start() {
+    let found = found(
+        r#"
+name = "driven"
+coordinates = ["x", "y", "phi"]
+parameters = { F = 2 }
+[lagrangian]
+L = "1/2 (x'^2 + y'^2 + phi'^2)"
+[forces]
+x = "(F - exp(x' cos(phi) + y' sin(phi))) cos(phi)"
+y = "(F - exp(x' cos(phi) + y' sin(phi))) sin(phi)"
+phi = "-phi'"
+[constraints]
+blade = "x' sin(phi) = y' cos(phi)"
+[quasi_velocities]
+u = "x' cos(phi) + y' sin(phi)"
+w = "phi'"
+[initial]
+x = 0
+y = 0
+phi = 0
+"x'" = 1
+"phi'" = 0
+[steady.straight]
+phi = 0
+"x'" = { guess = 0.5 }
+"phi'" = 0
+"#,
+    );
+    assert_eq!(found.found.len(), 1, "{:?}", found.found);
+    let own = &found.found[0];
+    assert_eq!(own.from.as_deref(), Some("straight"));
+    let speed = found.variables.iter().position(|name| name == "u").unwrap();
+    assert!((own.point.unknowns[speed] - 2.0_f64.ln()).abs() < 1e-12);
+    assert_eq!(found.ignorable, ["x", "y", "phi"]);
+}
