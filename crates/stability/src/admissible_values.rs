@@ -3,10 +3,9 @@
 
 use crate::isolation::Root;
 use crate::parameter_values::values_but;
-use crate::real_roots::{bound_of, real_roots, sign_at, sign_over};
+use crate::real_roots::{bound_of, decimal, real_roots, sign_at, sign_over};
 use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
-use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
@@ -18,6 +17,41 @@ pub(crate) struct AdmissibleValues {
     symbol: Symbol,
     /// Functions of the parameter with how they are to compare with zero.
     conditions: Vec<Condition>,
+}
+
+/// Values of several parameters for which a motion is: it and what the model states are real, and nothing that is assumed fails.
+#[derive(Clone, Debug)]
+pub struct AdmissiblePlaces {
+    conditions: Vec<Condition>,
+}
+
+impl AdmissiblePlaces {
+    /// Those of a motion with these values of the other parameters.
+    pub fn new(
+        system: &System,
+        motion: &SteadyMotion,
+        values: &[(Expr, Expr)],
+    ) -> AdmissiblePlaces {
+        let (real, assumed) = conditions_along(system, motion, values);
+        let is_open = |own: &Condition| !system.graph.symbols_in(&[own.function]).is_empty();
+        let all = real.into_iter().chain(assumed).filter(is_open);
+        AdmissiblePlaces {
+            conditions: all.collect(),
+        }
+    }
+
+    /// Whether the motion is at these values, in double precision. What contains other symbols is not looked at.
+    pub fn contain(&self, g: &Graph, value: &dyn Fn(Symbol) -> Option<f64>) -> bool {
+        self.conditions.iter().all(|own| {
+            let is_known = |symbol: &Symbol| value(*symbol).is_some();
+            if !g.symbols_in(&[own.function]).iter().all(is_known) {
+                return true;
+            }
+            let found = g.evaluate_f64(&[own.function], value).ok();
+            let sign = found.and_then(|found| found.first()?.partial_cmp(&0.0));
+            sign.is_some_and(|sign| own.holds(sign))
+        })
+    }
 }
 
 /// Values of a parameter for which the model makes sense, and what it assumes in addition or leaves out.
@@ -35,39 +69,96 @@ impl Reality {
         if self.real.conditions.is_empty() {
             return None;
         }
-        let symbol = self.real.symbol;
-        let is_everywhere = || -> Option<bool> {
-            let bound = bound_of(g, &functions, symbol)?;
-            let low = -bound.clone();
-            let mut roots = Vec::new();
-            for &e in &functions {
-                roots.extend(real_roots(g, e, symbol, &low, &bound)?);
+        match self.intervals(g, &functions) {
+            Some(Intervals {
+                is_everywhere: true,
+                ..
+            }) => None,
+            Some(found) if !found.words.is_empty() => Some(found.words.join(" or ")),
+            _ => {
+                let all: Vec<String> = self.real.conditions.iter().map(|own| own.text(g)).collect();
+                Some(all.join(" and "))
             }
-            roots.sort_by(|a, b| a.low.cmp(&b.low));
-            let lows = std::iter::once(&low).chain(roots.iter().map(|r| &r.high));
-            let highs = roots.iter().map(|r| &r.low).chain([&bound]);
-            for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
-                let sample = (a + b) / RBig::from(2);
-                let is_assumed = self.assumed.contains(g, &sample)?;
-                if is_assumed && !self.real.contains(g, &sample)? {
-                    return Some(false);
-                }
-            }
-            Some(true)
-        };
-        if is_everywhere() == Some(true) {
-            return None;
         }
-        let text = |own: &Condition| {
-            let sign = match own.relation {
-                Relation::Less => "<",
-                Relation::LessOrEqual => "<=",
-                Relation::NotEqual => "!=",
-            };
-            format!("{} {sign} 0", g.text(own.function))
-        };
-        let all: Vec<String> = self.real.conditions.iter().map(text).collect();
-        Some(all.join(" and "))
+    }
+
+    /// Where both hold, and whether the model is real for all values that are assumed; `None` where that was not decided.
+    fn intervals(&self, g: &Graph, functions: &[Expr]) -> Option<Intervals> {
+        let symbol = self.real.symbol;
+        let bound = bound_of(g, functions, symbol)?;
+        let low = -bound.clone();
+        let mut roots: Vec<Root> = Vec::new();
+        for &e in functions {
+            roots.extend(real_roots(g, e, symbol, &low, &bound)?);
+        }
+        roots.sort_by(|a, b| a.low.cmp(&b.low));
+        roots.dedup();
+        let lows = std::iter::once(&low).chain(roots.iter().map(|r| &r.high));
+        let highs = roots.iter().map(|r| &r.low).chain([&bound]);
+        // Intervals and the roots between them, in turn.
+        let mut admitted = Vec::new();
+        let mut is_everywhere = true;
+        for (at, (low, high)) in lows.zip(highs).enumerate() {
+            let sample = (low + high) / RBig::from(2);
+            let is_assumed = self.assumed.contains(g, &sample)?;
+            let is_real = self.real.contains(g, &sample)?;
+            is_everywhere &= is_real || !is_assumed;
+            admitted.push(is_assumed && is_real);
+            if let Some(root) = roots.get(at) {
+                let of = |own: &AdmissibleValues| own.contains_root(g, root, functions);
+                admitted.push(of(&self.assumed)? && of(&self.real)?);
+            }
+        }
+        let name = g.symbol_text(symbol);
+        Some(Intervals {
+            is_everywhere,
+            words: runs(&admitted)
+                .into_iter()
+                .map(|run| between(&name, run, &roots))
+                .collect(),
+        })
+    }
+}
+
+/// Where a model is real and what it assumes holds.
+struct Intervals {
+    /// Whether it is real for all values that are assumed.
+    is_everywhere: bool,
+    /// Each interval in words.
+    words: Vec<String>,
+}
+
+/// The first and the last place of each run of what is so.
+fn runs(all: &[bool]) -> Vec<(usize, usize)> {
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for at in (0..all.len()).filter(|&at| all[at]) {
+        match found.last_mut() {
+            Some(last) if last.1 + 1 == at => last.1 = at,
+            _ => found.push((at, at)),
+        }
+    }
+    found
+}
+
+/// `1 <= W < 2`: a run in the list of intervals and the roots between them, which have the odd places.
+fn between(name: &str, (first, last): (usize, usize), roots: &[Root]) -> String {
+    let number = |at: usize| roots.get(at).map(|root| decimal(&root.low));
+    let (starts_at_root, ends_at_root) = (first % 2 == 1, last % 2 == 1);
+    let low = (first + 1)
+        .checked_div(2)
+        .and_then(|own| own.checked_sub(1));
+    let (low, high) = (low.and_then(number), number(last / 2));
+    let sign = |is_in: bool| if is_in { "<=" } else { "<" };
+    match (low, high) {
+        (Some(a), Some(_)) if first == last && starts_at_root => format!("{name} = {a}"),
+        (Some(a), Some(b)) => {
+            let (from, to) = (sign(starts_at_root), sign(ends_at_root));
+            format!("{a} {from} {name} {to} {b}")
+        }
+        (Some(a), None) if starts_at_root => format!("{name} >= {a}"),
+        (Some(a), None) => format!("{name} > {a}"),
+        (None, Some(b)) => format!("{name} {} {b}", sign(ends_at_root)),
+        (None, None) => format!("{name} is any number"),
     }
 }
 
@@ -84,41 +175,19 @@ impl AdmissibleValues {
     /// The same apart.
     pub(crate) fn reality(system: &System, motion: &SteadyMotion, symbol: Symbol) -> Reality {
         let g = &system.graph;
-        let values = values_but(system, Some(symbol));
-        let coordinates = system.coordinates.iter();
-        let positions = coordinates.clone().map(|own| own.q).zip(&motion.positions);
-        let velocities = coordinates.map(|own| own.v).zip(&motion.velocities);
-        let stated = positions.chain(velocities);
-        let place: Vec<(Expr, Expr)> = stated
-            .filter_map(|(own, value)| value.map(|value| (own, value)))
-            .collect();
-        let at = |e: Expr| closed(g, g.substitute(g.substitute(e, &place), &values));
+        let (real, assumed) = conditions_along(system, motion, &values_but(system, Some(symbol)));
         let of_parameter = |all: Vec<Condition>| -> AdmissibleValues {
             let is_own = |own: &Condition| g.symbols_in(&[own.function]).into_iter().eq([symbol]);
-            let put = |own: Condition| Condition {
-                function: at(own.function),
-                ..own
-            };
-            let all = all.into_iter().map(put).filter(is_own);
+            let all = all.into_iter().filter(is_own);
             let parts = all.flat_map(|own| own.without_poles(g)).filter(is_own);
             AdmissibleValues {
                 symbol,
                 conditions: parts.collect(),
             }
         };
-        let all = system.assumptions.iter();
-        let assumed = all.map(|own| Condition {
-            function: g.sub(own.left, own.right),
-            relation: own.relation,
-        });
-        let mut stated: Vec<Expr> = place.iter().map(|(_, value)| *value).collect();
-        stated.extend(values.iter().map(|(_, value)| *value));
-        stated.push(system.lagrangian);
-        stated.extend(&system.forces);
-        stated.extend(system.constraints.iter().map(|own| own.stated));
         Reality {
-            real: of_parameter(conditions(g, &stated)),
-            assumed: of_parameter(assumed.collect()),
+            real: of_parameter(real),
+            assumed: of_parameter(assumed),
         }
     }
 
@@ -168,4 +237,38 @@ impl AdmissibleValues {
         let all: Option<Vec<bool>> = found.into_iter().collect();
         all.map(|_| true)
     }
+}
+
+/// Where a motion and what the model states of forces and constraints are real, and what is assumed: along the motion, with these values of
+/// parameters.
+fn conditions_along(
+    system: &System,
+    motion: &SteadyMotion,
+    values: &[(Expr, Expr)],
+) -> (Vec<Condition>, Vec<Condition>) {
+    let g = &system.graph;
+    let coordinates = system.coordinates.iter();
+    let positions = coordinates.clone().map(|own| own.q).zip(&motion.positions);
+    let velocities = coordinates.map(|own| own.v).zip(&motion.velocities);
+    let stated = positions.chain(velocities);
+    let place: Vec<(Expr, Expr)> = stated
+        .filter_map(|(own, value)| value.map(|value| (own, value)))
+        .collect();
+    let put = |own: Condition| Condition {
+        function: closed(g, g.substitute(g.substitute(own.function, &place), values)),
+        ..own
+    };
+    let mut stated: Vec<Expr> = place.iter().map(|(_, value)| *value).collect();
+    stated.extend(values.iter().map(|(_, value)| *value));
+    stated.push(system.lagrangian);
+    stated.extend(&system.forces);
+    stated.extend(system.constraints.iter().map(|own| own.stated));
+    let assumed = system.assumptions.iter().map(|own| Condition {
+        function: g.sub(own.left, own.right),
+        relation: own.relation,
+    });
+    (
+        conditions(g, &stated).into_iter().map(put).collect(),
+        assumed.map(put).collect(),
+    )
 }

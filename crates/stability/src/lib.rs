@@ -21,7 +21,7 @@
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
-mod admissible_values;
+pub mod admissible_values;
 mod branch;
 mod branching;
 pub mod bundle;

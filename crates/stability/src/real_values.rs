@@ -24,6 +24,16 @@ impl Condition {
         }
     }
 
+    /// `1 - W^2 <= 0`.
+    pub(crate) fn text(&self, g: &Graph) -> String {
+        let sign = match self.relation {
+            Relation::Less => "<",
+            Relation::LessOrEqual => "<=",
+            Relation::NotEqual => "!=",
+        };
+        format!("{} {sign} 0", g.text(self.function))
+    }
+
     /// The same of functions without denominators: a function changes its sign at its poles too, and has none there.
     pub(crate) fn without_poles(&self, g: &Graph) -> Vec<Condition> {
         let Some(parts) = factored(g, self.function) else {

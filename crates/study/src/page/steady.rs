@@ -3,7 +3,7 @@
 
 use super::modes;
 use crate::overview::found::rounded;
-use crate::stability::map::{Asked, Course, StabilityMap};
+use crate::stability::map::{Asked, Course, Kind, StabilityMap};
 use crate::stability::{stability, Range, Stability, Wanted};
 use crate::study::Study;
 use chetaev_mechanics::prover::assumptions;
@@ -139,7 +139,8 @@ fn map_of(own: &StabilityMap) -> Map {
     let cell = |column: usize, row: usize| {
         let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
         let corners = corners.map(|(x, y)| (row + y) * (own.side + 1) + column + x);
-        if corners.iter().all(|&at| own.is_stable[at]) {
+        let is_unstable = |at: &usize| own.kinds[*at] == Kind::Unstable;
+        if !corners.iter().any(is_unstable) {
             return f64::NAN;
         }
         corners
@@ -154,12 +155,10 @@ fn map_of(own: &StabilityMap) -> Map {
         (range.name.clone(), low, high)
     };
     let outlines = own.curves.iter().map(|curve| Outline {
-        name: match curve.kind {
-            "pair" => "a pair of eigenvalues passes the axis".into(),
-            _ => "an eigenvalue passes through zero".into(),
-        },
+        name: curve.what().into(),
         tint: match curve.kind {
             "pair" => Tint::Red,
+            "end" => Tint::Muted,
             _ => Tint::Blue,
         },
         points: curve.points.clone(),
@@ -174,7 +173,11 @@ fn map_of(own: &StabilityMap) -> Map {
         vertical: ends(&own.ranges[1]),
         columns: own.side,
         values: cells.map(|(column, row)| cell(column, row)).collect(),
-        absent: Some("no eigenvalue right of the axis".into()),
+        absent: Some(if own.kinds.contains(&Kind::NoMotion) {
+            "no eigenvalue right of the axis, or no such motion".into()
+        } else {
+            "no eigenvalue right of the axis".into()
+        }),
         outlines: outlines.collect(),
         is_unscaled: true,
     }

@@ -9,6 +9,7 @@ use super::{at, check_parameter, motions, range, with_values, Range, StabilityEr
 use crate::start;
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_model::Model;
+use chetaev_stability::admissible_values::AdmissiblePlaces;
 use chetaev_stability::eigenvalues::{eigenvalues, Complex};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
@@ -32,13 +33,35 @@ const ON_AXIS: f64 = 1e-7;
 /// Longer equations are not printed.
 const LONGEST: usize = 400;
 
+/// What a motion is at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// No eigenvalue lies right of the axis: for pairs on it, linear motions grow no faster than a power of the time.
+    Stable,
+    /// One does.
+    Unstable,
+    /// There is no such motion, as what it states is not real, or not what the model assumes.
+    NoMotion,
+}
+
 /// A boundary of stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// `zero` where a real eigenvalue passes through zero, `pair` where a pair passes the axis.
+    /// `zero` where a real eigenvalue passes through zero, `pair` where a pair passes the axis, `end` where the motion ceases to be.
     pub kind: &'static str,
     /// Values of both parameters along it.
     pub points: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// What happens along it.
+    pub fn what(&self) -> &'static str {
+        match self.kind {
+            "pair" => "a pair of eigenvalues passes the axis",
+            "end" => "the motion ceases to be",
+            _ => "an eigenvalue passes through zero",
+        }
+    }
 }
 
 /// Stability over two parameters.
@@ -54,8 +77,8 @@ pub struct StabilityMap {
     pub side: usize,
     /// The largest real part of an eigenvalue that is no zero of the family, at `side` + 1 values of the first parameter for each of the second.
     pub growth: Vec<f64>,
-    /// Whether it counts as stable there: for pairs on the axis, that linear motions grow no faster than a power of the time.
-    pub is_stable: Vec<bool>,
+    /// What the motion is there.
+    pub kinds: Vec<Kind>,
     /// Boundaries.
     pub curves: Vec<Curve>,
     /// Functions on whose zeros they lie, with what passes there.
@@ -96,6 +119,8 @@ pub struct Asked {
     system: System,
     motion: SteadyMotion,
     question: Question,
+    /// Where the motion is.
+    places: AdmissiblePlaces,
     ranges: [Range; 2],
 }
 
@@ -135,7 +160,9 @@ impl Asked {
         let own = (&values[..], Speeds::Suitable);
         let about = Expansion::in_speeds(&system, terms, selection, &motion, own)?;
         let question = Question::about(&about, None);
+        let places = AdmissiblePlaces::new(&system, &about.found, &values);
         Ok(Asked {
+            places,
             motion,
             question,
             ranges,
@@ -158,17 +185,18 @@ impl Asked {
         let grid = Grid {
             g: &self.system.graph,
             question: &self.question,
+            places: &self.places,
             over: self.ranges.clone().map(|own| own.symbol),
             ranges: &self.ranges,
             side,
             threads,
         };
-        let (growth, is_stable) = grid.sampled(course.tell);
+        let (growth, kinds) = grid.sampled(course.tell);
         StabilityMap {
-            curves: grid.curves(&is_stable),
+            curves: grid.curves(&kinds),
             equations: grid.equations(),
             growth,
-            is_stable,
+            kinds,
             side,
             name: self.system.name.clone(),
             motion: self.motion.name.clone(),
@@ -181,6 +209,7 @@ impl Asked {
 struct Grid<'a> {
     g: &'a Graph,
     question: &'a Question,
+    places: &'a AdmissiblePlaces,
     over: [Symbol; 2],
     ranges: &'a [Range; 2],
     side: usize,
@@ -199,12 +228,17 @@ impl Grid<'_> {
         (at(&self.ranges[0], column), at(&self.ranges[1], row))
     }
 
-    /// The eigenvalue farthest right, and the size of the largest.
-    fn rightmost(&self, (x, y): (f64, f64)) -> Option<(Complex<f64>, f64)> {
-        let value = |s: Symbol| {
-            let mut both = self.over.iter().zip([x, y]);
-            both.find(|(own, _)| **own == s).map(|(_, value)| value)
-        };
+    fn value(&self, s: Symbol, (x, y): (f64, f64)) -> Option<f64> {
+        let mut both = self.over.iter().zip([x, y]);
+        both.find(|(own, _)| **own == s).map(|(_, value)| value)
+    }
+
+    /// The eigenvalue farthest right, and the size of the largest; `None` where there is no motion, or no number.
+    fn rightmost(&self, place: (f64, f64)) -> Option<(Complex<f64>, f64)> {
+        let value = |s: Symbol| self.value(s, place);
+        if !self.places.contain(self.g, &value) {
+            return None;
+        }
         let numbers = |es: &[Expr]| self.g.evaluate_f64(es, &value).ok();
         let found = match &self.question.polynomial {
             Some(own) => {
@@ -231,22 +265,30 @@ impl Grid<'_> {
         Some((last.unwrap_or_default(), size))
     }
 
-    fn is_stable(&self, own: Option<(Complex<f64>, f64)>) -> bool {
+    fn kind(&self, place: (f64, f64), own: Option<(Complex<f64>, f64)>) -> Kind {
         let allowed = if self.question.spectrum.paired.is_some() {
             ON_AXIS
         } else {
             0.0
         };
-        own.is_some_and(|(l, size)| l.re <= allowed * size)
+        match own {
+            Some((l, size)) if l.re <= allowed * size => Kind::Stable,
+            None if !self.places.contain(self.g, &|s| self.value(s, place)) => Kind::NoMotion,
+            _ => Kind::Unstable,
+        }
     }
 
-    fn sampled(&self, tell: &mut dyn FnMut(f64)) -> (Vec<f64>, Vec<bool>) {
-        let one = |row: usize| -> Vec<(f64, bool)> {
+    fn kind_at(&self, place: (f64, f64)) -> Kind {
+        self.kind(place, self.rightmost(place))
+    }
+
+    fn sampled(&self, tell: &mut dyn FnMut(f64)) -> (Vec<f64>, Vec<Kind>) {
+        let one = |row: usize| -> Vec<(f64, Kind)> {
             let places = (0..=self.side).map(|column| self.place(column as f64, row as f64));
-            let found = places.map(|place| self.rightmost(place));
-            let growth = |own: &Option<(Complex<f64>, f64)>| own.map_or(f64::NAN, |own| own.0.re);
+            let found = places.map(|place| (place, self.rightmost(place)));
+            let growth = |own: Option<(Complex<f64>, f64)>| own.map_or(f64::NAN, |own| own.0.re);
             found
-                .map(|own| (growth(&own), self.is_stable(own)))
+                .map(|(place, own)| (growth(own), self.kind(place, own)))
                 .collect()
         };
         let rows = self.side + 1;
@@ -259,7 +301,7 @@ impl Grid<'_> {
     fn located(
         &self,
         (column, row, is_upwards): Edge,
-        is_stable_first: bool,
+        [first, last]: [Kind; 2],
     ) -> ((f64, f64), &'static str) {
         let at = |part: f64| {
             let (dx, dy) = if is_upwards { (0.0, part) } else { (part, 0.0) };
@@ -268,7 +310,7 @@ impl Grid<'_> {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            if self.is_stable(self.rightmost(at(middle))) == is_stable_first {
+            if self.kind_at(at(middle)) == first {
                 low = middle;
             } else {
                 high = middle;
@@ -276,7 +318,9 @@ impl Grid<'_> {
         }
         let place = at(0.5 * (low + high));
         let is_pair = |(l, size): (Complex<f64>, f64)| l.im.abs() > 1e-5 * size;
-        let kind = if self.rightmost(place).is_some_and(is_pair) {
+        let kind = if first == Kind::NoMotion || last == Kind::NoMotion {
+            "end"
+        } else if self.rightmost(place).is_some_and(is_pair) {
             "pair"
         } else {
             "zero"
@@ -285,9 +329,13 @@ impl Grid<'_> {
     }
 
     /// The boundaries, joined from cell to cell.
-    fn curves(&self, is_stable: &[bool]) -> Vec<Curve> {
+    fn curves(&self, kinds: &[Kind]) -> Vec<Curve> {
         let side = self.side;
-        let stable = |column: usize, row: usize| is_stable[row * (side + 1) + column];
+        let kind = |column: usize, row: usize| kinds[row * (side + 1) + column];
+        let ends = |&(c, r, up): &Edge| match up {
+            true => [kind(c, r), kind(c, r + 1)],
+            false => [kind(c, r), kind(c + 1, r)],
+        };
         let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
         for row in 0..side {
             for column in 0..side {
@@ -297,13 +345,9 @@ impl Grid<'_> {
                     (column, row + 1, false),
                     (column, row, true),
                 ];
-                let differs = |&(c, r, up): &Edge| {
-                    stable(c, r)
-                        != if up {
-                            stable(c, r + 1)
-                        } else {
-                            stable(c + 1, r)
-                        }
+                let differs = |edge: &Edge| {
+                    let [first, last] = ends(edge);
+                    first != last
                 };
                 let crossed: Vec<Edge> = edges.into_iter().filter(differs).collect();
                 for pair in crossed.chunks_exact(2) {
@@ -313,7 +357,7 @@ impl Grid<'_> {
             }
         }
         let crossed: Vec<Edge> = joined.keys().copied().collect();
-        let located = |at: usize| self.located(crossed[at], stable(crossed[at].0, crossed[at].1));
+        let located = |at: usize| self.located(crossed[at], ends(&crossed[at]));
         let located = on_threads(self.threads, crossed.len(), located, &mut |_| {});
         let places: BTreeMap<Edge, _> = crossed.iter().copied().zip(located).collect();
         chains(joined)
@@ -413,15 +457,18 @@ const WIDTH: usize = 60;
 const HEIGHT: usize = 20;
 
 impl StabilityMap {
-    /// Whether the motion is stable at a place of the grid.
-    pub(crate) fn stable_at(&self, column: usize, row: usize) -> bool {
-        self.is_stable[row * (self.side + 1) + column]
+    /// What the motion is at a place of the grid.
+    pub(crate) fn kind_at(&self, column: usize, row: usize) -> Kind {
+        self.kinds[row * (self.side + 1) + column]
     }
 
     /// The map in characters, with the boundaries.
     pub fn text(&self) -> String {
         let [x, y] = &self.ranges;
-        let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid\n\n", self.name, self.motion);
+        let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid{}\n\n", self.name, self.motion, match self.kinds.contains(&Kind::NoMotion) {
+            true => "; blank: there is no such motion",
+            false => "",
+        });
         for line in (0..=HEIGHT).rev() {
             let row = line * self.side / HEIGHT;
             let head = match line {
@@ -429,12 +476,10 @@ impl StabilityMap {
                 0 => format!("{} = {}", y.name, y.low.to_f64().value()),
                 _ => String::new(),
             };
-            let mark = |c: usize| {
-                if self.stable_at(c * self.side / WIDTH, row) {
-                    '.'
-                } else {
-                    '#'
-                }
+            let mark = |c: usize| match self.kind_at(c * self.side / WIDTH, row) {
+                Kind::Stable => '.',
+                Kind::Unstable => '#',
+                Kind::NoMotion => ' ',
             };
             let marks: String = (0..=WIDTH).map(mark).collect();
             let _ = writeln!(text, "{head:>14} {marks}");
@@ -442,11 +487,7 @@ impl StabilityMap {
         let ends = (x.low.to_f64().value(), x.high.to_f64().value());
         let _ = writeln!(text, "{:>14} {} = {} to {}\n", "", x.name, ends.0, ends.1);
         for curve in &self.curves {
-            let what = if curve.kind == "pair" {
-                "a pair of eigenvalues passes the axis"
-            } else {
-                "an eigenvalue passes through zero"
-            };
+            let what = curve.what();
             let (Some(a), Some(b)) = (curve.points.first(), curve.points.last()) else {
                 continue;
             };
@@ -483,6 +524,7 @@ impl StabilityMap {
             "evidence": "numerical",
             "ranges": self.ranges.iter().map(range).collect::<Vec<_>>(),
             "growth": rows.collect::<Vec<_>>(),
+            "has_motion": self.kinds.chunks_exact(self.side + 1).map(|row| row.iter().map(|own| *own != Kind::NoMotion).collect::<Vec<_>>()).collect::<Vec<_>>(),
             "boundaries": self.curves.iter().map(|own| json!({
                 "kind": own.kind,
                 "points": own.points.iter().map(|(x, y)| json!([x, y])).collect::<Vec<_>>(),

@@ -1,6 +1,6 @@
 //! Pictures of stability as SVG: eigenvalues over one parameter, regions over two.
 
-use super::map::StabilityMap;
+use super::map::{Kind, StabilityMap};
 use super::{Range, Stability};
 use chetaev_report::escaped;
 use chetaev_stability::question::Place;
@@ -155,22 +155,25 @@ impl StabilityMap {
             let mut column = 0;
             while column < side {
                 let from = column;
-                let is_stable = self.stable_at(column, row);
-                while column < side && self.stable_at(column, row) == is_stable {
+                let kind = self.kind_at(column, row);
+                while column < side && self.kind_at(column, row) == kind {
                     column += 1;
                 }
-                if is_stable {
-                    let (a, below) = place(from as f64, row as f64);
-                    let (b, above) = place(column as f64, (row + 1) as f64);
-                    let _ = write!(inside, "<path d=\"M{a:.1} {above:.2}H{b:.1}V{below:.2}H{a:.1}z\" fill=\"#cfe8cf\" shape-rendering=\"crispEdges\"/>");
-                }
+                let fill = match kind {
+                    Kind::Stable => "#cfe8cf",
+                    Kind::Unstable => continue,
+                    Kind::NoMotion => "#dddddd",
+                };
+                let (a, below) = place(from as f64, row as f64);
+                let (b, above) = place(column as f64, (row + 1) as f64);
+                let _ = write!(inside, "<path d=\"M{a:.1} {above:.2}H{b:.1}V{below:.2}H{a:.1}z\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>");
             }
         }
         for curve in &self.curves {
-            let color = if curve.kind == "pair" {
-                "#b3261e"
-            } else {
-                "#1f5fa8"
+            let color = match curve.kind {
+                "pair" => "#b3261e",
+                "end" => "#777777",
+                _ => "#1f5fa8",
             };
             let points: Vec<String> = curve
                 .points

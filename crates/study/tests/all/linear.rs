@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use chetaev_model::{load, Model, NoFiles};
-use chetaev_study::stability::map::map;
+use chetaev_study::stability::map::{map, Kind};
 use chetaev_study::stability::{stability, Numbers, Stability, Wanted};
 
 const BICYCLE: &str = include_str!("../../../../gallery/whipple-bicycle/model.toml");
@@ -166,4 +166,43 @@ fn a_lyapunov_coefficient_that_vanishes_says_nothing() {
     let own = found(text, &wanted).ranges_text();
     assert!(own.contains("a pair of eigenvalues passes"), "{own}");
     assert!(own.contains("vanish"), "{own}");
+}
+
+/// A bead on a hoop that turns at the rate W about its vertical diameter stands aside where cos θ = k/W², which is an angle only for W² ≥ k: the map
+/// has no motion below the parabola k = W², and stability above it.
+#[test]
+fn a_map_leaves_out_where_there_is_no_motion() {
+    let bead = model(
+        r#"
+name = "bead"
+coordinates = ["th"]
+parameters = { W = 2, k = 1 }
+[lagrangian]
+L = "1/2 (th'^2 + W^2 sin(th)^2) + k cos(th)"
+[steady.aside]
+th = "acos(k/W^2)"
+"#,
+    );
+    let over = Wanted {
+        over: Some("W=1/10:2,k=1/10:2"),
+        ..Wanted::default()
+    };
+    let drawn = map(&bead, &over, &mut |_| {}).unwrap();
+    let part = |at: usize| 0.1 + 1.9 * at as f64 / drawn.side as f64;
+    for (at, kind) in drawn.kinds.iter().enumerate() {
+        let (w, k) = (part(at % (drawn.side + 1)), part(at / (drawn.side + 1)));
+        let expected = if k > w * w + 1e-9 {
+            Kind::NoMotion
+        } else {
+            Kind::Stable
+        };
+        if (k - w * w).abs() > 1e-9 {
+            assert_eq!(*kind, expected, "W = {w}, k = {k}");
+        }
+    }
+    let edge: Vec<_> = drawn.curves.iter().filter(|own| own.kind == "end").collect();
+    assert!(!edge.is_empty());
+    for (w, k) in edge.iter().flat_map(|own| &own.points) {
+        assert!((k - w * w).abs() < 1e-9, "W = {w}, k = {k}");
+    }
 }
