@@ -17,9 +17,10 @@ use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::common_zeros::{angles, needed_relations};
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
+use chetaev_symbolic::polynomial::normal_form::{normal_form, normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use std::cmp::Reverse;
 
 /// A number for all symbols, to see whether a function has values.
 const SOMEWHERE: f64 = 0.377;
@@ -199,8 +200,7 @@ impl<'a> Equations<'a> {
             }
         };
         let controls = controls(system, &vanishing);
-        let vanishing = at_point(g, &vanishing, &[&controls, &at_rest, values]);
-        let vanishing = other_than_zero(g, vanishing);
+        let vanishing = normal(g, vanishing, &[&controls, &at_rest, values])?;
         let slopes: Vec<Expr> = own.characteristics.basis.concat();
         let slopes = at_point(g, &slopes, &[&controls, &at_rest, values]);
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
@@ -388,9 +388,23 @@ fn jumps_at_rest(g: &Graph, vanishing: &[Expr]) -> Result<(), SteadySetError> {
     }
 }
 
-/// The expressions that are not zero by their form.
-fn other_than_zero(g: &Graph, es: Vec<Expr>) -> Vec<Expr> {
-    es.into_iter().filter(|&e| !g.is_zero(e)).collect()
+/// The normal forms of expressions with these replacements, those left out that are zero. The largest is made first: where it is too large
+/// that is known at once.
+fn normal(
+    g: &Graph,
+    mut es: Vec<Expr>,
+    replacements: &[&[(Expr, Expr)]],
+) -> Result<Vec<Expr>, SteadySetError> {
+    for list in replacements {
+        es = g.substitute_all(&es, list);
+    }
+    let mut places: Vec<usize> = (0..es.len()).collect();
+    places.sort_by_key(|&at| Reverse(g.reachable(&[es[at]]).len()));
+    for at in places {
+        es[at] = normal_form(g, es[at], &Budget::PROOF)?.to_expr();
+    }
+    es.retain(|&e| !g.is_zero(e));
+    Ok(es)
 }
 
 /// The expressions that are no numbers.

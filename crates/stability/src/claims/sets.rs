@@ -10,7 +10,7 @@ use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Graph, Verdict};
 
 /// Seconds of work for a set.
-const SECONDS: f64 = 0.5;
+const SECONDS: f64 = 0.25;
 
 /// More signs of formulas are not written: `chetaev steady` prints them.
 const LONGEST: usize = 2_000;

@@ -51,7 +51,7 @@ pub enum StabilityError {
     #[error(
         "{0}; a motion of which positions and velocities are known can be stated as [steady.NAME]"
     )]
-    SteadySet(#[from] SteadySetError),
+    SteadySet(SteadySetError),
     /// A value for something that has none.
     #[error("--at {text}: {why}")]
     At {
@@ -96,4 +96,13 @@ pub enum StabilityError {
     /// There are no linear equations in all variables.
     #[error(transparent)]
     Descriptor(#[from] DescriptorError),
+}
+
+impl From<SteadySetError> for StabilityError {
+    fn from(problem: SteadySetError) -> StabilityError {
+        match problem {
+            SteadySetError::System(problem) => StabilityError::Linearization(*problem),
+            other => StabilityError::SteadySet(other),
+        }
+    }
 }
