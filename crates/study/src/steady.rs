@@ -96,7 +96,7 @@ impl Steady {
             let _ = writeln!(text, "  {name} = {}", g.text(*definition));
         }
         text.push('\n');
-        text.push_str(&lines(g, set));
+        text.extend(set.found.iter().map(|own| paragraph(g, set, own)));
         text.push('\n');
         let _ = writeln!(text, "{}", self.completeness(set));
         for sentence in set.left_out(g) {
@@ -170,9 +170,13 @@ impl Steady {
     }
 }
 
-/// One paragraph for each motion.
+/// One paragraph for each motion that can be meant: not where the mass matrix is singular or what is assumed does not hold, if there are others.
 pub(crate) fn lines(g: &Graph, set: &SteadySet) -> String {
-    set.found.iter().map(|own| paragraph(g, set, own)).collect()
+    let is_meant = |own: &&Found| own.is_assumed && !own.is_singular;
+    let meant: Vec<&Found> = set.found.iter().filter(is_meant).collect();
+    let all = || set.found.iter().collect();
+    let listed = if meant.is_empty() { all() } else { meant };
+    listed.iter().map(|own| paragraph(g, set, own)).collect()
 }
 
 fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
