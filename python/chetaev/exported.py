@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import notebook
 from .errors import NotDerivedError
+from .results import Shown
 from .trees import nodes, replaced
 
 if TYPE_CHECKING:
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from .system import System
 
 
-class Exported:
+class Exported(Shown):
     """The equations of motion as a pure function ``rhs(t, y, p)`` of another library.
 
     Attributes
@@ -61,6 +63,13 @@ class Exported:
 
     def __repr__(self) -> str:
         return f"<rhs(t, y, p): y = ({', '.join(self.state)}), p = ({', '.join(self.parameters)})>"
+
+    def _html(self) -> str:
+        rows = [("y", name, float(value)) for name, value in zip(self.state, self.start)]
+        rows += [("p", name, value) for name, value in self.parameters.items()]
+        shown = notebook.paragraph(f"rhs(t, y, p), the rates of y by the form {self.formulation}")
+        text = notebook.preformatted(self.source)
+        return shown + notebook.table(["", "component", "start or value"], rows) + notebook.unfolding("its text", text)
 
 
 #: Forms of the equations in which functions are written, the shortest first.
@@ -145,7 +154,7 @@ def names_of(source: str) -> tuple[list[str], list[str]]:
     return found[0], found[1]
 
 
-class Residuals:
+class Residuals(Shown):
     """Equations of the first order as opty takes them, in SymPy: what vanishes along the motion.
 
     ``opty.Problem(objective, gradient, own.equations, own.states, nodes, interval, known_parameter_map=own.parameters, time_symbol=own.time)``
@@ -217,6 +226,19 @@ class Residuals:
 
     def __repr__(self) -> str:
         return f"<{self.equations.rows} residuals of {', '.join(own.func.__name__ for own in self.states)}>"
+
+    def _html(self) -> str:
+        rows = [(str(at + 1), notebook.code(str(own))) for at, own in enumerate(self.equations)]
+        found = {"states": self.states, "unknowns": self.unknowns, "inputs": self.inputs}
+        named: list[tuple[str, Any]] = [(name, ", ".join(str(own.func.__name__) for own in list_)) for name, list_ in found.items() if list_]
+        named += [(str(name), value) for name, value in self.parameters.items()]
+        return notebook.table(["", "vanishes along the motion"], rows) + notebook.unfolding("what occurs", notebook.table([], named))
+
+    def _latex(self) -> str | None:
+        import sympy as sp
+
+        rows = " \\\\\n".join(f"{sp.latex(own)} &= 0" for own in self.equations)
+        return f"\\begin{{aligned}}\n{rows}\n\\end{{aligned}}"
 
 
 def _stated(system: System) -> tuple[Formulation, dict[str, list[Any]]]:

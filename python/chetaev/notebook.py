@@ -67,6 +67,11 @@ def code(text: str) -> Html:
     return Html(f"<code>{html.escape(text)}</code>")
 
 
+def preformatted(text: str) -> str:
+    """A text with its lines and spaces."""
+    return f"<pre>{html.escape(text)}</pre>"
+
+
 def paragraph(text: str) -> str:
     """A sentence."""
     return f"<p style='margin:0.3em 0'>{html.escape(text)}</p>" if text else ""

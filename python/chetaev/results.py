@@ -392,11 +392,20 @@ class Comparison(Result):
 
 
 class Steady(Result):
-    """All steady motions: ``motions`` with their values, exact and enclosed; families have free variables and equations."""
+    """All steady motions: ``motions`` with their values, exact and enclosed; families have free variables and equations.
+
+    Where the equations cannot be solved exactly these are motions that were found from starts, in numbers, and there may be others.
+
+    Attributes
+    ----------
+    complete : bool
+        Whether these are all, proved.
+    """
 
     def __init__(self, system: System, data: Json, text: str) -> None:
         super().__init__(data, text)
         self._system = system
+        self.complete: bool = data["complete"]
 
     @property
     def motions(self) -> list[dict[str, Any]]:
@@ -467,6 +476,48 @@ class StabilityMap(Result):
 
     def _html(self) -> str:
         return notebook.picture(self._picture) + notebook.unfolding("in words", super()._html())
+
+
+class LinearAlong(Result):
+    """Linear equations ``z' = A(t) z`` along a motion, in numbers.
+
+    Attributes
+    ----------
+    variables : list of str
+        The components of z: deviations from the motion.
+    times : array of shape (times,)
+        When.
+    state : array of shape (times, variables)
+        The motion in these variables.
+    A : array of shape (times, variables, variables)
+        The matrices.
+    transition : array of shape (times, variables, variables)
+        What takes deviations at the start to those at each time.
+    exponents : array of shape (times, variables)
+        Lyapunov exponents over the time until then, the largest first; not a number at the start, where there are none.
+    """
+
+    def __init__(self, data: Json, text: str) -> None:
+        import numpy as np
+
+        super().__init__(data, text)
+        rows, count = data["rows"], len(data["variables"])
+        self.variables: list[str] = list(data["variables"])
+        self.times: NDArray[np.float64] = np.array([own["t"] for own in rows], dtype=float)
+        self.state: NDArray[np.float64] = np.array([own["state"] for own in rows], dtype=float)
+        self.A: NDArray[np.float64] = np.array([own["A"] for own in rows], dtype=float)
+        self.transition: NDArray[np.float64] = np.array([own["transition"] for own in rows], dtype=float)
+        none = [float("nan")] * count
+        self.exponents: NDArray[np.float64] = np.array([own["exponents"] or none for own in rows], dtype=float)
+
+    def _html(self) -> str:
+        last = len(self.times) - 1
+        shown = notebook.paragraph(f"{self._data['system']}: z' = A(t) z with z = ({', '.join(self.variables)})")
+        for at in sorted({0, last}):
+            shown += notebook.matrix(f"A({self.times[at]:.6g})", [[f"{own:.6g}" for own in row] for row in self.A[at]])
+        rows = [[float(t), *map(float, exponents)] for t, exponents in zip(self.times, self.exponents)]
+        head = ["t", *(f"exponent {own + 1}" for own in range(len(self.variables)))]
+        return shown + notebook.table(head, rows[1:]) + notebook.unfolding("in words", super()._html())
 
 
 class Followed(Result):

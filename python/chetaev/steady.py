@@ -50,7 +50,7 @@ def _constants(expressions: list[Any], free: Iterable[str]) -> list[Any]:
 
 
 def _enclosed(values: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """Numbers that have no formula, with as many digits as are certain."""
+    """Numbers that have no formula, with as many digits as are certain; 15 where they were found in double precision."""
     import sympy as sp
 
     found = {}
@@ -58,6 +58,8 @@ def _enclosed(values: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
         if own.get("exact") is None and own.get("enclosure"):
             low, high = (sp.Rational(end) for end in own["enclosure"])
             found[own["name"]] = sp.Float((low + high) / 2, 20)
+        elif own.get("exact") is None and own.get("value") is not None:
+            found[own["name"]] = sp.Float(own["value"], 15)
     return found
 
 

@@ -20,6 +20,7 @@ from .results import (
     Derivation,
     Film,
     Followed,
+    LinearAlong,
     Linearization,
     Picture,
     Result,
@@ -963,7 +964,7 @@ class System:
         Returns
         -------
         Steady
-            Its ``motions``, exact.
+            Its ``motions``, exact; where the equations cannot be solved exactly those that were found from starts, in numbers.
 
         Examples
         --------
@@ -1113,7 +1114,7 @@ class System:
             text, data = self._native.follow(about, over, orbit, period, points, step, tell)
         return Followed(json.loads(data), text)
 
-    def along(self, *, progress: bool = False) -> Result:
+    def along(self, *, progress: bool = False) -> LinearAlong:
         """Linear equations along the motion from the initial state: A(t), the transition matrix and its exponents, in numbers.
 
         Parameters
@@ -1123,12 +1124,18 @@ class System:
 
         Returns
         -------
-        Result
-            Its data as of ``chetaev linearize --along --json``, in numbers.
+        LinearAlong
+            The matrices as arrays; its data are those of ``chetaev linearize --along --json``.
+
+        Examples
+        --------
+        >>> found = System.from_gallery("chaplygin-sleigh").along()
+        >>> found.variables, found.A.shape == (len(found.times), 2, 2)
+        (['u', 'w'], True)
         """
         with _Progress(progress) as tell:
             text, data = self._native.along(tell)
-        return Result(json.loads(data), text)
+        return LinearAlong(json.loads(data), text)
 
     def sensitivity(
         self, by: str | Iterable[str], times: Iterable[float], *, second: bool = False, progress: bool = False

@@ -134,3 +134,12 @@ def test_the_form_is_regular_where_the_motion_starts() -> None:
         if name in expected:
             assert abs(rate - expected[name]) < 1e-9, name
     assert set(system.coordinates) <= set(found.state)
+
+
+def test_functions_and_residuals_are_shown(gallery: Path) -> None:
+    sleigh = System.from_file(gallery / "chaplygin-sleigh" / "model.toml")
+    pytest.importorskip("casadi")
+    function = sleigh.to_casadi()._repr_mimebundle_()["text/html"]
+    assert "<td" in function and "def rhs" in function
+    residuals = sleigh.to_opty()._repr_mimebundle_()
+    assert "&= 0" in residuals["text/latex"] and "vanishes along the motion" in residuals["text/html"]

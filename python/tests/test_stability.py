@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -83,3 +84,38 @@ def test_all_variables_have_the_same_eigenvalues_by_scipy(seed: int) -> None:
         nearest = min(finite, key=lambda other: abs(other - own))
         assert abs(nearest - own) < 1e-6 * size, (seed, own, finite)
         finite.remove(nearest)
+
+
+def test_a_buckled_pendulum_is_found_in_numbers() -> None:
+    """An inverted pendulum on a torsion spring: 9.81 sin θ = 5 θ has three zeros, which are no polynomial's."""
+    from scipy.optimize import brentq
+
+    buckled = System.from_text(
+        'name = "buckled"\ncoordinates = ["th"]\n[lagrangian]\nL = "1/2 th\'^2 - 981/100 cos(th) - 5/2 th^2"\n[initial]\nth = 0.1\n"th\'" = 0\n'
+    )
+    found = buckled.steady()
+    assert not found.complete
+    aside = brentq(lambda x: 9.81 * np.sin(x) - 5 * x, 1, 3, xtol=1e-14)
+    places = sorted(float(own["values"]["th"]) for own in found.to_sympy().values())
+    assert places == pytest.approx([-aside, 0, aside], abs=1e-10)
+    assert {own["stability"] for own in found.motions} == {"unstable", "linearly on the border"}
+    assert "1.873" in found._repr_mimebundle_()["text/html"]
+    assert "1.873" in found.to_latex()
+    assert System.from_gallery("double-pendulum").steady().complete
+
+
+def test_linear_equations_along_a_motion_are_arrays() -> None:
+    """Beside a motion nearby the transition matrix takes the difference at the start to the one at the end, up to its square."""
+    sleigh = System.from_gallery("chaplygin-sleigh")
+    found = sleigh.along()
+    count = len(found.variables)
+    assert found.A.shape == found.transition.shape == (len(found.times), count, count)
+    assert np.allclose(found.transition[0], np.eye(count))
+    # The sleigh starts with u = 0 and w = W.
+    assert found.variables == ["u", "w"]
+    step = Fraction(1, 10**4)
+    ends = [sleigh.with_values(W=Fraction(21, 10) + sign * step).along().state[-1] for sign in (1, -1)]
+    slope = (ends[0] - ends[1]) / (2 * float(step))
+    assert slope == pytest.approx(found.transition[-1][:, 1], abs=1e-7)
+    shown = found._repr_mimebundle_()["text/html"]
+    assert "exponent 1" in shown and "A(0)" in shown

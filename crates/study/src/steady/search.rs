@@ -213,13 +213,17 @@ impl Search {
     pub(super) fn json(&self, name: &str) -> serde_json::Value {
         let motion = |(at, own): (usize, &Near)| {
             let values = self.variables.iter().zip(&own.point.unknowns);
-            let values = values.map(|(name, x)| json!({"name": name, "value": x}));
+            let values = values.map(|(name, x)| json!({"name": name, "exact": null, "value": x}));
             let spectrum = &own.point.spectrum.values;
             let eigenvalues = spectrum.iter().map(|l| json!([l.re, l.im]));
             json!({
                 "name": (at + 1).to_string(),
                 "near": own.from,
                 "dimension": own.family,
+                "free": [],
+                "equations": [],
+                "not_negative": [],
+                "closed_form": false,
                 "values": values.collect::<Vec<_>>(),
                 "eigenvalues": eigenvalues.collect::<Vec<_>>(),
                 "stability": where_eigenvalues_lie(spectrum),
@@ -228,6 +232,7 @@ impl Search {
         json!({
             "system": name,
             "variables": self.variables,
+            "speeds": [],
             "ignorable": self.ignorable,
             "complete": false,
             "evidence": "numerical",
