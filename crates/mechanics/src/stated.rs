@@ -14,14 +14,20 @@ const HIGHEST: u32 = 8;
 
 impl System {
     /// Pairs (parameter, 0) of the parameters that the model states to be zero, and (parameter, definition) of those that others define,
-    /// of those that occur in L, the forces or the constraints.
+    /// of those that occur in L, the forces or the constraints. One over whose values a steady motion is judged stays open.
     pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
         let (g, occurring) = (&self.graph, self.occurring());
         let tied = self.tied(&occurring);
         let inside: Vec<Expr> = tied.iter().map(|&(_, definition)| definition).collect();
         let all = [occurring, g.reachable(&inside)].concat();
         let mut zeros = self.parameter_values();
-        zeros.retain(|(parameter, value)| g.is_zero(*value) && all.contains(parameter));
+        let is_over = |parameter: Expr| {
+            let mut over = self.steady.iter().filter_map(|own| own.over);
+            over.any(|own| g.as_symbol(parameter) == Some(own))
+        };
+        zeros.retain(|&(parameter, value)| {
+            g.is_zero(value) && all.contains(&parameter) && !is_over(parameter)
+        });
         let is_zero = |e: Expr| zeros.iter().any(|&(zero, _)| zero == e);
         let others = tied
             .into_iter()

@@ -279,6 +279,11 @@ pub fn follow(
     })
 }
 
+/// A test below this vanishes to rounding: the sum or product of eigenvalues in parts of the largest.
+const SPECIAL: f64 = 1e-9;
+/// A step that would end where something happens is made so much shorter.
+const BESIDE: f64 = 0.83;
+
 /// A curve on its way; vectors are unknowns in units of their scales, then the parameter in units of the range.
 struct Walk<'e> {
     equations: &'e mut dyn Equations,
@@ -438,6 +443,13 @@ impl Walk<'_> {
                 }
                 continue;
             };
+            // Where something happens at a point itself no sign changes on either side of it.
+            let beside = if self.is_special(&next) {
+                self.step(&at, BESIDE * length)
+            } else {
+                None
+            };
+            let (next, steps) = beside.unwrap_or((next, steps));
             let is_out = next.y[m] < 0.0 || next.y[m] > 1.0;
             let next = if is_out {
                 self.at_border(&at, &next)
@@ -465,6 +477,12 @@ impl Walk<'_> {
         happened.sort_by(|a, b| a.0.total_cmp(&b.0));
         special.extend(happened.into_iter().map(|(_, own)| own));
         Ok(end)
+    }
+
+    /// Whether a test vanishes at a point, to rounding.
+    fn is_special(&self, at: &Stand) -> bool {
+        let tests = self.equations.tests(&at.point.spectrum.values);
+        tests.iter().any(|value| value.abs() < SPECIAL)
     }
 
     /// The next point at this length, where the direction does not change much.

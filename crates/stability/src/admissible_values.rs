@@ -4,8 +4,9 @@
 use crate::isolation::Root;
 use crate::parameter_values::values_but;
 use crate::real_roots::{bound_of, decimal, real_roots, sign_at, sign_over};
-use crate::real_values::{conditions, Condition};
+use crate::real_values::{conditions, corners, Condition};
 use crate::steady::closed;
+use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
@@ -105,7 +106,7 @@ impl Reality {
             is_everywhere &= is_real || !is_assumed;
             admitted.push(is_assumed && is_real);
             if let Some(root) = roots.get(at) {
-                let of = |own: &AdmissibleValues| own.contains_root(g, root, functions);
+                let of = |own: &AdmissibleValues| own.contains_root(g, root, &[]);
                 admitted.push(of(&self.assumed)? && of(&self.real)?);
             }
         }
@@ -166,29 +167,36 @@ impl AdmissibleValues {
     /// The assumptions in which nothing but this parameter is left, and where all values are real.
     pub(crate) fn new(system: &System, motion: &SteadyMotion, symbol: Symbol) -> AdmissibleValues {
         let Reality { real, assumed } = AdmissibleValues::reality(system, motion, symbol);
+        let corners = corners_along(system, motion, &values_but(system, Some(symbol)));
+        let corners = AdmissibleValues::of(system, symbol, corners);
         AdmissibleValues {
             symbol,
-            conditions: [assumed.conditions, real.conditions].concat(),
+            conditions: [assumed.conditions, real.conditions, corners.conditions].concat(),
         }
     }
 
     /// The same apart.
     pub(crate) fn reality(system: &System, motion: &SteadyMotion, symbol: Symbol) -> Reality {
-        let g = &system.graph;
         let (real, assumed) = conditions_along(system, motion, &values_but(system, Some(symbol)));
-        let of_parameter = |all: Vec<Condition>| -> AdmissibleValues {
-            let is_own = |own: &Condition| g.symbols_in(&[own.function]).into_iter().eq([symbol]);
-            let all = all.into_iter().filter(is_own);
-            let parts = all.flat_map(|own| own.without_poles(g)).filter(is_own);
-            AdmissibleValues {
-                symbol,
-                conditions: parts.collect(),
-            }
-        };
         Reality {
-            real: of_parameter(real),
-            assumed: of_parameter(assumed),
+            real: AdmissibleValues::of(system, symbol, real),
+            assumed: AdmissibleValues::of(system, symbol, assumed),
         }
+    }
+
+    /// Those of some conditions in which nothing but this parameter is left.
+    fn of(system: &System, symbol: Symbol, all: Vec<Condition>) -> AdmissibleValues {
+        let g = &system.graph;
+        let is_own = |own: &Condition| g.symbols_in(&[own.function]).into_iter().eq([symbol]);
+        let all = all.into_iter().filter(is_own);
+        let parts = all.flat_map(|own| own.without_poles(g)).filter(is_own);
+        let mut conditions: Vec<Condition> = Vec::new();
+        for own in parts {
+            if !conditions.contains(&own) {
+                conditions.push(own);
+            }
+        }
+        AdmissibleValues { symbol, conditions }
     }
 
     /// The functions at whose zeros something that is assumed begins or ceases to hold.
@@ -247,13 +255,7 @@ fn conditions_along(
     values: &[(Expr, Expr)],
 ) -> (Vec<Condition>, Vec<Condition>) {
     let g = &system.graph;
-    let coordinates = system.coordinates.iter();
-    let positions = coordinates.clone().map(|own| own.q).zip(&motion.positions);
-    let velocities = coordinates.map(|own| own.v).zip(&motion.velocities);
-    let stated = positions.chain(velocities);
-    let place: Vec<(Expr, Expr)> = stated
-        .filter_map(|(own, value)| value.map(|value| (own, value)))
-        .collect();
+    let place = place_of(system, motion);
     let put = |own: Condition| Condition {
         function: closed(g, g.substitute(g.substitute(own.function, &place), values)),
         ..own
@@ -271,4 +273,36 @@ fn conditions_along(
         conditions(g, &stated).into_iter().map(put).collect(),
         assumed.map(put).collect(),
     )
+}
+
+/// Positions and velocities of a motion.
+fn place_of(system: &System, motion: &SteadyMotion) -> Vec<(Expr, Expr)> {
+    let coordinates = system.coordinates.iter();
+    let positions = coordinates.clone().map(|own| own.q).zip(&motion.positions);
+    let velocities = coordinates.map(|own| own.v).zip(&motion.velocities);
+    let stated = positions.chain(velocities);
+    stated
+        .filter_map(|(own, value)| value.map(|value| (own, value)))
+        .collect()
+}
+
+/// What may not vanish along a motion, so that what the model states is smooth about it: there the linear equations say nothing.
+fn corners_along(
+    system: &System,
+    motion: &SteadyMotion,
+    values: &[(Expr, Expr)],
+) -> Vec<Condition> {
+    let g = &system.graph;
+    let place = place_of(system, motion);
+    let mut stated = vec![system.lagrangian];
+    stated.extend(&system.forces);
+    stated.extend(system.constraints.iter().map(|own| own.stated));
+    stated.extend(system.controls.iter().filter_map(|own| own.law));
+    let all = corners(g, &stated).into_iter().map(|(_, inside)| inside);
+    let put = |e: Expr| closed(g, g.substitute(g.substitute(e, &place), values));
+    all.map(|inside| Condition {
+        function: put(inside),
+        relation: Relation::NotEqual,
+    })
+    .collect()
 }

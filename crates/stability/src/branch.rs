@@ -218,7 +218,11 @@ impl Chain<'_, '_> {
         let exact: Option<Vec<Expr>> = exact.collect();
         match balls.collect::<Option<Vec<Ball>>>() {
             Some(balls) => self.numbers(branch, generator, (&balls, exact.as_deref())),
-            None => Ok(self.functions(branch, generator, exact.as_deref())),
+            None => {
+                // Of its own square a root is the positive one.
+                let is_own = self.is_root(generator) && self.relations.contains(p);
+                Ok(self.functions(branch, (generator, is_own), exact.as_deref()))
+            }
         }
     }
 
@@ -255,19 +259,30 @@ impl Chain<'_, '_> {
     }
 
     /// Closed forms by free unknowns and parameters; the branch as it is where there are none.
-    fn functions(&self, branch: Branch, generator: usize, exact: Option<&[Expr]>) -> Vec<Branch> {
+    fn functions(
+        &self,
+        branch: Branch,
+        (generator, is_own): (usize, bool),
+        exact: Option<&[Expr]>,
+    ) -> Vec<Branch> {
         let g = self.field.graph();
         let forms = exact.map(|own| closed_forms(g, own)).unwrap_or_default();
         if forms.is_empty() {
             return vec![branch];
         }
+        let is_positive = is_own && forms.len() == 2;
+        // By another equation a root is what must not be negative.
+        let is_restricted = self.is_root(generator) && !is_positive;
         let with = |(form, condition): (Expr, Option<Expr>)| {
             let mut own = branch.clone();
             own.exact.insert(generator, form);
             own.conditions.extend(condition);
+            if is_restricted {
+                own.conditions.push(form);
+            }
             own
         };
-        let count = if self.is_root(generator) { 1 } else { 2 };
+        let count = if is_positive { 1 } else { 2 };
         forms.into_iter().take(count).map(with).collect()
     }
 
@@ -382,22 +397,41 @@ impl Chain<'_, '_> {
         let g = self.field.graph();
         let (c, s) = (*branch.exact.get(&cosine)?, *branch.exact.get(&sine)?);
         let is = |e: Expr, value: i64| e == g.integer(value);
+        let same = |a: Expr, b: Expr| g.is_zero(closed(g, g.sub(a, b)));
+        let root = sine_of(g, c);
         let sign = match branch.balls.get(&sine) {
-            Some(ball) => ball.sign()?,
-            // Of two closed forms the second is the one with the minus sign.
-            None if closed(g, g.sub(s, sine_of(g, c))) == g.zero() => Ordering::Greater,
-            None => Ordering::Less,
+            Some(ball) => Some(ball.sign()?),
+            None if same(s, root) => Some(Ordering::Greater),
+            None if same(s, g.neg(root)) => Some(Ordering::Less),
+            // Its sign changes along the family.
+            None => None,
         };
         let turn = |part: i64| g.mul(&[fraction(g, (part, 2)), g.pi()]);
         let angle = match sign {
-            Ordering::Equal if is(c, 1) => g.zero(),
-            Ordering::Equal => turn(2),
-            Ordering::Greater if is(c, 0) => turn(1),
-            Ordering::Less if is(c, 0) => turn(-1),
-            Ordering::Greater => g.apply(Function::Acos, &[c]),
-            Ordering::Less => g.neg(g.apply(Function::Acos, &[c])),
+            None => self.angle_of(branch, (c, s)),
+            Some(Ordering::Equal) if is(c, 1) => g.zero(),
+            Some(Ordering::Equal) => turn(2),
+            Some(Ordering::Greater) if is(c, 0) => turn(1),
+            Some(Ordering::Less) if is(c, 0) => turn(-1),
+            Some(Ordering::Greater) => g.apply(Function::Acos, &[c]),
+            Some(Ordering::Less) => g.neg(g.apply(Function::Acos, &[c])),
         };
         Some(g.mul(&[fraction(g, (times.1, times.0)), angle]))
+    }
+
+    /// The angle of a point of the unit circle given by functions: that of a free angle, the same half a turn further, or its opposite, where it is
+    /// one of these.
+    fn angle_of(&self, branch: &Branch, (c, s): (Expr, Expr)) -> Expr {
+        let g = self.field.graph();
+        let same = |a: Expr, b: Expr| g.is_zero(closed(g, g.sub(a, b)));
+        let known = branch.free.iter().flat_map(|&(symbol, _)| {
+            let further = g.add(&[symbol, g.pi()]);
+            [symbol, further, g.neg(symbol), g.sub(g.pi(), symbol)]
+        });
+        let mut known = known;
+        known
+            .find(|&angle| same(c, g.cos(angle)) && same(s, g.sin(angle)))
+            .unwrap_or_else(|| g.apply(Function::Atan2, &[s, c]))
     }
 
     /// Equations whose generators have no value, without those that always hold.

@@ -7,10 +7,10 @@ use crate::real_roots::sign_of;
 use crate::steady::closed;
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_value::{precision, Value};
-use chetaev_mechanics::system::Relation;
+use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{Selection, System};
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::{Expr, Graph};
+use chetaev_symbolic::{Expr, Graph, Symbol};
 use std::cmp::Ordering;
 
 /// More choices are not tried.
@@ -28,19 +28,26 @@ pub(crate) fn other_charts(selection: &Selection, choices: Vec<Vec<usize>>) -> V
     others.map(chart).take(CHARTS).collect()
 }
 
-/// A set of motions with those of another chart where its own equations are not defined.
+/// A set of motions with those of another chart where its own equations are not defined; the set as it was where one of these cannot be written in
+/// its variables.
 pub(crate) fn union(system: &System, own: &mut SteadySet, other: &SteadySet) {
     let g = &system.graph;
-    let unseen = other.found.iter().filter_map(|found| {
-        let at = values_along(system, found)?;
+    let mut unseen = Vec::new();
+    for found in &other.found {
+        let Some(at) = values_along(system, found) else {
+            return;
+        };
         let vanishes = |&e: &Expr| {
             let value = closed(g, g.substitute(e, &along(system, own, &at)));
             g.is_zero(value)
         };
-        let is_seen = !own.excluded.iter().any(vanishes);
-        (!is_seen).then(|| in_variables(system, own, found, &at))?
-    });
-    let unseen: Vec<Found> = unseen.collect();
+        if own.excluded.iter().any(vanishes) {
+            match in_variables(system, own, found, &at) {
+                Some(found) => unseen.push(found),
+                None => return,
+            }
+        }
+    }
     own.found.extend(unseen);
     // Nothing is said where a function of each chart vanishes.
     let mut both = Vec::new();
@@ -90,9 +97,14 @@ fn in_variables(
     let all = own.variables.iter().map(|name| -> Option<Value> {
         let coordinate = system.coordinates.iter().find(|c| c.name == *name);
         let speed = || own.speeds.iter().find(|(speed, _)| speed == name);
+        let velocity = || {
+            let mut all = system.coordinates.iter();
+            all.find(|c| name.strip_suffix('\'') == Some(c.name.as_str()))
+        };
         let e = coordinate
             .map(|c| c.q)
-            .or_else(|| speed().map(|own| own.1))?;
+            .or_else(|| speed().map(|own| own.1))
+            .or_else(|| velocity().map(|c| c.v))?;
         let value = closed(g, g.substitute(e, at));
         if !found.free.is_empty() {
             return Some(Value::Function(value));
@@ -126,8 +138,13 @@ pub(crate) fn is_singular_at(g: &Graph, rows: &[Vec<Expr>], lists: [&[(Expr, Exp
     !rows.is_empty() && g.is_zero(closed(g, determinant(g, &rows)))
 }
 
-/// Whether nothing that the model assumes is proved not to hold along a motion.
-pub(crate) fn is_assumed(system: &System, found: &Found, values: &[(Expr, Expr)]) -> bool {
+/// Whether nothing that the model assumes is proved not to hold along a motion. What is assumed of coordinates that may be anywhere is no
+/// condition on it.
+pub(crate) fn is_assumed(
+    system: &System,
+    found: &Found,
+    (values, anywhere): (&[(Expr, Expr)], &[Symbol]),
+) -> bool {
     let g = &system.graph;
     let at = values_along(system, found).unwrap_or_default();
     let fails = |sign: Ordering, relation: Relation| match relation {
@@ -135,7 +152,8 @@ pub(crate) fn is_assumed(system: &System, found: &Found, values: &[(Expr, Expr)]
         Relation::LessOrEqual => sign == Ordering::Greater,
         Relation::NotEqual => sign == Ordering::Equal,
     };
-    let mut all = system.assumptions.iter();
+    let is_of_motion = |own: &&Assumption| !g.any_contains_any(&[own.left, own.right], anywhere);
+    let mut all = system.assumptions.iter().filter(is_of_motion);
     !all.any(|own| {
         let e = g.substitute(g.sub(own.left, own.right), &at);
         let e = closed(g, g.substitute(e, values));

@@ -2,7 +2,8 @@
 
 use crate::guess::near;
 use crate::problem::LinearizationError;
-use crate::real_values::not_real;
+use crate::real_roots::sign_of;
+use crate::real_values::{corners, not_real};
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, completed, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
@@ -13,6 +14,7 @@ use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use nalgebra::DMatrix;
+use std::cmp::Ordering;
 
 /// What is linearized about what.
 pub struct Expansion<'a> {
@@ -94,6 +96,7 @@ impl<'a> Expansion<'a> {
         };
         about.check_autonomous()?;
         about.check_positions()?;
+        about.check_smooth()?;
         about.check_constraints()?;
         about.check_steady()?;
         Ok(about)
@@ -159,6 +162,29 @@ impl<'a> Expansion<'a> {
                 coordinate: self.system.coordinates[j].name.clone(),
             }),
         }
+    }
+
+    /// Linear equations are those of functions that have derivatives.
+    fn check_smooth(&self) -> Result<(), LinearizationError> {
+        let g = self.graph();
+        let system = self.system;
+        let mut stated = [self.own.equations.entries(), self.own.rates.clone()].concat();
+        stated.extend(self.terms.constraints.iter().copied());
+        stated.extend(system.constraints.iter().map(|own| own.stated));
+        stated = g.substitute_all(&stated, &self.controls(&stated));
+        for (corner, inside) in corners(g, &stated) {
+            let value = self.at(&[inside])[0];
+            let is_number = g.symbols_in(&[value]).is_empty();
+            let is_apart = !g.is_zero(value)
+                && (!is_number || sign_of(g, value).is_some_and(|sign| sign != Ordering::Equal));
+            if !is_apart {
+                return Err(LinearizationError::NotSmooth {
+                    motion: self.motion.name.clone(),
+                    corner: g.text(corner),
+                });
+            }
+        }
+        Ok(())
     }
 
     fn check_constraints(&self) -> Result<(), LinearizationError> {

@@ -68,6 +68,14 @@ pub enum LinearizationError {
         /// The motion.
         motion: String,
     },
+    /// What the model states has a corner or a jump there.
+    #[error("at the motion `{motion}` the equations have a corner or a jump, that of `{corner}`: there are no linear equations")]
+    NotSmooth {
+        /// The motion.
+        motion: String,
+        /// What has it.
+        corner: String,
+    },
     /// Something changes that should be constant.
     #[error("the motion `{motion}` is not steady: {quantity} has the rate {rate}")]
     NotSteady {

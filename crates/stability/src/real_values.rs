@@ -8,7 +8,7 @@ use chetaev_symbolic::{Expr, Graph};
 use std::cmp::Ordering;
 
 /// A function with how it is to compare with zero.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Condition {
     pub(crate) function: Expr,
     pub(crate) relation: Relation,
@@ -67,8 +67,13 @@ fn condition(g: &Graph, e: Expr) -> Option<Condition> {
     let (function, relation) = match g.node(e) {
         Node::Power { base, exponent } => {
             let number = g.as_number(*exponent);
-            if number.is_some_and(|n| n.denominator().is_one()) {
-                return None;
+            if let Some(n) = number.filter(|n| n.denominator().is_one()) {
+                // At a pole there is no number.
+                let is_negative = *n < chetaev_symbolic::Rational::ZERO;
+                return is_negative.then_some(Condition {
+                    function: *base,
+                    relation: Relation::NotEqual,
+                });
             }
             let is_positive = number.is_some_and(|n| *n > chetaev_symbolic::Rational::ZERO);
             (g.neg(*base), if is_positive { at_most } else { less })
@@ -90,6 +95,29 @@ fn condition(g: &Graph, e: Expr) -> Option<Condition> {
         _ => return None,
     };
     Some(Condition { function, relation })
+}
+
+/// Where expressions have a corner or a jump: zeros of what stands under absolute values, signs, and roots that are no square's.
+pub(crate) fn corners(g: &Graph, es: &[Expr]) -> Vec<(Expr, Expr)> {
+    let corner = |e: Expr| match g.node(e) {
+        Node::Power { base, exponent } => {
+            let number = g.as_number(*exponent)?;
+            (!number.denominator().is_one()).then_some((e, *base))
+        }
+        Node::Apply {
+            function: Function::Abs | Function::Sign,
+            arguments,
+        } => Some((e, *arguments.first()?)),
+        Node::Apply {
+            function: Function::Asin | Function::Acos,
+            arguments,
+        } => {
+            let own = *arguments.first()?;
+            Some((e, g.sub(g.powi(own, 2), g.one())))
+        }
+        _ => None,
+    };
+    g.reachable(es).into_iter().filter_map(corner).collect()
 }
 
 /// The first of these numbers that is proved not to be real.

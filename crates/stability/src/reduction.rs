@@ -262,6 +262,47 @@ fn conditioned(
     })
 }
 
+/// Whether functions of the velocities are linear in them and with the constraints independent, so that they may serve as speeds, at almost all
+/// states.
+pub fn may_be_speeds(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    speeds: &[Expr],
+) -> bool {
+    let (g, n) = (&system.graph, system.n());
+    let velocities = system.velocity_symbols();
+    let own = g.jacobian(speeds, &velocities);
+    if own.iter().any(|row| g.any_contains_any(row, &velocities)) {
+        return false;
+    }
+    let constraints = selection
+        .rows
+        .iter()
+        .map(|&row| terms.jacobian[row].clone());
+    let rows: Vec<Vec<Expr>> = constraints.chain(own).collect();
+    if rows.len() != n {
+        return false;
+    }
+    let entries = rows.concat();
+    let mut generator = Generator::new(0x5bee_d5);
+    (0..PLACES_OF_SPEEDS).any(|_| {
+        let symbols = g.symbols_in(&entries).into_iter();
+        let values: BTreeMap<Symbol, f64> =
+            symbols.map(|s| (s, generator.between(0.3, 1.3))).collect();
+        let found = g.evaluate_f64(&entries, &|s| values.get(&s).copied());
+        found.is_ok_and(|found| {
+            let singular = DMatrix::from_row_slice(n, n, &found).singular_values();
+            singular.min() > SINGULAR * singular.max()
+        })
+    })
+}
+
+/// States at which speeds are looked at.
+const PLACES_OF_SPEEDS: usize = 4;
+/// A smaller part of the largest singular value is rounding.
+const SINGULAR: f64 = 1e-11;
+
 /// A place of a coordinate on which nothing depends.
 const SOMEWHERE: f64 = 0.377;
 /// A slope beyond this is taken for a pole that rounding hides.

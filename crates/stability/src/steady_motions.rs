@@ -4,6 +4,9 @@ use crate::steady_value::Value;
 use chetaev_mechanics::SteadyMotion;
 use chetaev_symbolic::{Expr, Graph};
 
+/// Signs of a function that is written.
+const LONGEST: usize = 200;
+
 /// All steady motions.
 #[derive(Clone, Debug)]
 pub struct SteadySet {
@@ -49,11 +52,14 @@ impl SteadySet {
     pub fn left_out(&self, g: &Graph) -> Vec<String> {
         let excluded = self.excluded.iter();
         let mut all: Vec<String> = excluded
-            .map(|&e| {
-                let where_ = g.text(e);
-                format!(
-                    "Nothing is said where {where_} vanishes: the equations are not defined there."
-                )
+            .map(|&e| match g.text(e) {
+                text if text.len() <= LONGEST => format!(
+                    "Nothing is said where {text} vanishes: the equations are not defined there."
+                ),
+                text => format!(
+                    "Nothing is said where a function of {} signs vanishes, by which was divided.",
+                    text.len()
+                ),
             })
             .collect();
         if !self.has_full_rank {

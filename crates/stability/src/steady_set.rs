@@ -13,12 +13,15 @@ use crate::steady::{at_point, closed};
 pub use crate::steady_motions::{Found, SteadySet};
 use crate::steady_value::{fraction, Generators, Unknown};
 pub use crate::steady_value::{SteadySetError, Value};
-use chetaev_mechanics::constraint::ConstraintKind;
+use chetaev_mechanics::constraint::{Constraint, ConstraintKind};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::common_zeros::{angles, needed_relations};
+use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::polynomial::normal_form::{normal_form, normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::cmp::Reverse;
 
@@ -59,6 +62,15 @@ pub fn all_of(
     (system, terms, selection): (&System, &MotionTerms, &Selection),
     values: &[(Expr, Expr)],
 ) -> Result<SteadySet, SteadySetError> {
+    if let Some(constraint) = system
+        .constraints
+        .iter()
+        .find(|own| is_product(system, own))
+    {
+        return Err(SteadySetError::Product {
+            constraint: constraint.name.clone(),
+        });
+    }
     let in_chart = |chart: &Selection, speeds| {
         let asked = Asked {
             sought,
@@ -79,6 +91,17 @@ pub fn all_of(
     }
     sort(&mut set.found);
     Ok(set)
+}
+
+/// Whether a constraint is a product, of which motions keep one factor or another at zero.
+fn is_product(system: &System, constraint: &Constraint) -> bool {
+    let g = &system.graph;
+    let e = match constraint.kind {
+        ConstraintKind::Holonomic => constraint.stated,
+        _ => constraint.f,
+    };
+    let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
+    irreducible_factors(g, e, &symbols).is_some_and(|all| all.len() > 1)
 }
 
 /// What is sought in one chart.
@@ -102,20 +125,32 @@ fn in_chart(
     let symbols: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
     let mut options = Options::proof(Budget::PROOF);
     options.base_angles = angles(g, &equations.vanishing, &symbols);
-    let all = [equations.vanishing.clone(), equations.slopes.clone()].concat();
+    let all = [
+        equations.vanishing.clone(),
+        equations.slopes.clone(),
+        equations.regular.clone(),
+    ]
+    .concat();
     let (field, forms) = normal_forms(g, &all, &options)?;
     let vanishing = forms.iter().take(equations.vanishing.len());
     let numerators: Vec<Polynomial> = vanishing.map(|f| f.numerator().clone()).collect();
     let count = numerators.len();
-    let denominators: Vec<Polynomial> = forms.iter().map(|f| f.denominator().clone()).collect();
+    let mut denominators: Vec<Polynomial> = forms.iter().map(|f| f.denominator().clone()).collect();
+    // By these was divided to solve constraints for dependent velocities.
+    let regular = forms.iter().skip(count + equations.slopes.len());
+    denominators.extend(regular.map(|f| f.numerator().clone()));
     let polynomials = [numerators, denominators.clone()].concat();
     let relations = needed_relations(&field, &polynomials)?;
-    let unknowns = unknowns(&field, &equations, &polynomials)?;
-    let order = order(&field, &unknowns, &polynomials);
+    // What stands under a root alone is an unknown too.
+    let related = [polynomials.clone(), relations.clone()].concat();
+    let unknowns = unknowns(&field, &equations, &related)?;
+    let order = order(&field, &unknowns, &related);
     let meter = field.meter();
     let vanishing = &polynomials[..count];
     let vanishing: Vec<Polynomial> = vanishing.iter().chain(&relations).cloned().collect();
     let chains = triangular_systems(&vanishing, &denominators, &order, meter)?;
+    let anywhere = equations.others().into_iter();
+    let anywhere: Vec<Symbol> = anywhere.map(|j| system.coordinates[j].q_symbol).collect();
     let mut found = Vec::new();
     for system_of_chain in &chains {
         let chain = Chain {
@@ -128,7 +163,7 @@ fn in_chart(
         };
         for branch in chain.branches()? {
             let own = found_of(&chain, &equations, branch);
-            let is_assumed = is_assumed(system, &own, asked.values);
+            let is_assumed = is_assumed(system, &own, (asked.values, &anywhere));
             found.push(Found { is_assumed, ..own });
         }
     }
@@ -153,6 +188,8 @@ struct Equations<'a> {
     vanishing: Vec<Expr>,
     /// The slopes of the velocities by the quasi-velocities: where one has no value these do not serve.
     slopes: Vec<Expr>,
+    /// The slopes of constraints that are not affine by the velocities that they determine: where one vanishes they determine none.
+    regular: Vec<Expr>,
     /// The unknowns with their names, those that are coordinates first.
     unknowns: Vec<(Symbol, String)>,
     /// The coordinates among them.
@@ -201,8 +238,12 @@ impl<'a> Equations<'a> {
         };
         let controls = controls(system, &vanishing);
         let vanishing = normal(g, vanishing, &[&controls, &at_rest, values])?;
+        // Where all minors vanish the quasi-velocities do not tell velocities apart.
         let slopes: Vec<Expr> = own.characteristics.basis.concat();
         let slopes = at_point(g, &slopes, &[&controls, &at_rest, values]);
+        let regular = implicit.clone().map(|(e, symbol)| g.diff(*e, *symbol));
+        let regular: Vec<Expr> = regular.chain(independence(g, &own)).collect();
+        let regular = at_point(g, &regular, &[&controls, &at_rest, values]);
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
             return Err(LinearizationError::NotAutonomous.into());
         }
@@ -229,6 +270,7 @@ impl<'a> Equations<'a> {
             values: values.to_vec(),
             vanishing,
             slopes: moving(g, slopes),
+            regular,
             unknowns,
             coordinates,
             own,
@@ -374,6 +416,28 @@ fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
         }
     }
     all
+}
+
+/// The sum of the squares of the minors of the velocities by the quasi-velocities; none where it is a number, or where these are velocities themselves.
+fn independence(g: &Graph, own: &ClosedSystem) -> Option<Expr> {
+    let basis = &own.characteristics.basis;
+    let k = own.characteristics.k();
+    let rows = choices(basis.len(), k);
+    if k == 0 || rows.len() > MINORS {
+        return None;
+    }
+    let minor = |rows: &Vec<usize>| {
+        let rows: Vec<Vec<Expr>> = rows.iter().map(|&row| basis[row].clone()).collect();
+        closed(g, determinant(g, &rows))
+    };
+    let minors: Vec<Expr> = rows.iter().map(minor).collect();
+    let is_number = |&e: &Expr| g.as_number(e).is_some() && !g.is_zero(e);
+    if minors.iter().any(is_number) {
+        return None;
+    }
+    let squares = minors.into_iter().map(|e| g.powi(e, 2));
+    let sum = closed(g, g.add(&squares.collect::<Vec<Expr>>()));
+    g.as_number(sum).is_none().then_some(sum)
 }
 
 /// Forces that jump where a velocity vanishes, as dry friction does, hold a system at rest in more places than the equations have zeros.
@@ -531,7 +595,8 @@ fn excluded(
     for p in denominators {
         for (factor, _) in p.factorize(field.meter())?.factors {
             let e = field.polynomial_expression(&factor);
-            if g.contains_any(e, symbols) && !all.contains(&e) {
+            let is_nonzero = known_sign(g, closed(g, e), &Assumptions::new()).is_nonzero();
+            if g.contains_any(e, symbols) && !is_nonzero && !all.contains(&e) {
                 all.push(e);
             }
         }

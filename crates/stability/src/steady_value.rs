@@ -21,6 +21,12 @@ pub enum SteadySetError {
         /// It.
         what: String,
     },
+    /// A constraint with components.
+    #[error("the constraint `{constraint}` is a product, and on which of its factors a motion lies is not asked here: state the factor as the constraint")]
+    Product {
+        /// The constraint.
+        constraint: String,
+    },
     /// They have no value.
     #[error("the equations are not defined there, whatever the positions: a denominator vanishes")]
     Undefined,

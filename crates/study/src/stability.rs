@@ -17,7 +17,7 @@ pub use error::StabilityError;
 
 use crate::start;
 use chetaev_mechanics::system::QuasiVelocity;
-use chetaev_mechanics::{Selection, SteadyMotion, System};
+use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::descriptor::Descriptor;
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
@@ -27,7 +27,7 @@ use chetaev_stability::hurwitz::Ranges;
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::parts::Parts;
 use chetaev_stability::question::{parameter_of_motion, values_but, Question};
-use chetaev_stability::reduction::Speeds;
+use chetaev_stability::reduction::{may_be_speeds, Speeds};
 use chetaev_stability::state_space::StateSpace;
 use chetaev_stability::steady_set::{steady_set, SteadySet, SteadySetError};
 use chetaev_symbolic::meter::{within, Work};
@@ -117,6 +117,8 @@ pub enum Numbers {
     Asked,
     /// The equations in symbols took more work than they may.
     TooLarge,
+    /// The motion is steady at these values alone.
+    SteadyThere,
 }
 
 /// Work for the linear equations in symbols, counted as seconds; a chain of 32 links takes a third of it. With numbers alone it is not limited.
@@ -136,6 +138,11 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
     }
     let symbolic = || in_symbols(model, system.clone(), wanted);
     match within(&Work::of_seconds(wanted.work.unwrap_or(WORK)), symbolic) {
+        // It may be steady at the values of the model alone.
+        Ok(Err(StabilityError::Linearization(
+            problem @ (LinearizationError::NotSteady { .. }
+            | LinearizationError::NotAdmissible { .. }),
+        ))) => in_numbers(model, system, wanted, Numbers::SteadyThere).map_err(|_| problem.into()),
         Ok(found) => found,
         Err(_) => in_numbers(model, system, wanted, Numbers::TooLarge),
     }
@@ -170,7 +177,7 @@ fn in_symbols(
     let prepared = start::prepared(model, &system)?;
     let (terms, mut selection) = (&prepared.terms, prepared.selection.clone());
     let speeds = match wanted.speeds {
-        Some(text) => in_speeds(model, &mut system, &mut selection, text)?,
+        Some(text) => in_speeds((model, terms), &mut system, &mut selection, text)?,
         None => Speeds::Suitable,
     };
     let outputs = match wanted.outputs {
@@ -387,21 +394,27 @@ fn list(model: &Model, text: &str) -> Result<Vec<(String, Expr)>, StabilityError
 
 /// Makes the speeds of choice independent: velocities by the selection, others as quasi-velocities of the system.
 fn in_speeds(
-    model: &Model,
+    (model, terms): (&Model, &MotionTerms),
     system: &mut System,
     selection: &mut Selection,
     text: &str,
 ) -> Result<Speeds, StabilityError> {
     let all = list(model, text)?;
     let needed = system.n() - selection.rows.len();
-    if all.len() != needed {
+    let definitions: Vec<Expr> = all.iter().map(|own| own.1).collect();
+    let is_choice = all.len() == needed;
+    if !is_choice || !may_be_speeds(system, terms, selection, &definitions) {
         let independent = selection.independent(system.n());
         let names: Vec<String> = independent
             .iter()
             .map(|&j| format!("{}'", system.coordinates[j].name))
             .collect();
         return Err(StabilityError::Speeds {
-            text: format!("`{text}` names {} speeds", all.len()),
+            text: if is_choice {
+                format!("`{text}` is no choice of independent speeds")
+            } else {
+                format!("`{text}` names {} speeds", all.len())
+            },
             needed,
             example: names.join(", "),
         });

@@ -83,7 +83,7 @@ impl Steady {
             [] => writeln!(text, "{} are constant", set.variables.join(", ")),
             own => writeln!(
                 text,
-                "{} are constant; {} run on uniformly or stand, anywhere",
+                "{} are constant; nothing depends on {}",
                 set.variables.join(", "),
                 own.join(", ")
             ),

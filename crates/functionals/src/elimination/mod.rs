@@ -446,6 +446,13 @@ impl<'s> Solved<'s> {
         found
     }
 
+    /// Whether fields or data, or functions of them, occur in what was divided by.
+    pub fn is_divided_by_jets(&self) -> bool {
+        let has_jets = |e: &Expr| !self.space.jets_in(&[*e]).is_empty();
+        let of_fields = |pivot: &Pivot| pivot.entries == Entries::Fields;
+        self.divisors.iter().any(has_jets) || self.pivots.iter().any(of_fields)
+    }
+
     /// What the equations say beyond others: jets less their values, and what could not be solved.
     pub fn beyond(&self, others: &Solved<'_>) -> Vec<Expr> {
         let space = self.space;

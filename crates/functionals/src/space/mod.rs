@@ -364,6 +364,14 @@ impl Space {
         found
     }
 
+    /// Whether a constitutive function occurs.
+    pub(crate) fn has_applications(&self, e: Expr) -> bool {
+        let applications = self.applications.borrow();
+        self.written_in(e)
+            .iter()
+            .any(|symbol| applications.contains_key(symbol))
+    }
+
     /// Whether a symbol occurs, in arguments too.
     fn depends(&self, e: Expr, wanted: Symbol) -> bool {
         let symbols = self.written_in(e);

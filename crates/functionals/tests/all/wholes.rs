@@ -139,13 +139,7 @@ fn nothing_is_carried_along_equations_that_are_not_lipschitz() {
         let (word, detail) = word(energy);
         assert_eq!(word, "undecided", "{energy}: {detail}");
     }
-    for energy in [
-        "u^4",
-        "1/2 u^2",
-        "2/5 abs(u)^(5/2)",
-        "sqrt(1 + u^2)",
-        "cos(u)",
-    ] {
+    for energy in ["u^4", "1/2 u^2", "sqrt(1 + u^2)", "cos(u)"] {
         let (word, detail) = word(energy);
         assert_eq!(word, "proved", "{energy}: {detail}");
     }

@@ -167,6 +167,10 @@ impl Over<'_, '_> {
         let after = regions.iter().find(|r| r.low >= root.high);
         let after = after.filter(|own| self.is_admitted_above(&root.high, &own.high));
         let (before, after) = (before.map(place), after.map(place));
+        // Where the motion begins or ends there is no change of its stability.
+        if before.is_none() || after.is_none() {
+            return Change::None;
+        }
         let how = how(boundary.crossing);
         if before != after {
             return Change::Is(format!("{how}{}", towards(before, after)));

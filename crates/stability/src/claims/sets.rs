@@ -100,29 +100,35 @@ fn listed(g: &Graph, set: &SteadySet, sought: Sought) -> String {
         Sought::Rest => ("state of rest", "states of rest"),
         Sought::SteadyMotions => ("steady motion", "steady motions"),
     };
-    let is_regular = |own: &&Found| !own.is_singular && own.is_assumed;
+    let is_regular = |own: &&Found| !own.is_singular && own.is_assumed && own.is_real;
     let regular: Vec<&Found> = set.found.iter().filter(is_regular).collect();
-    let others = match set.found.len() - regular.len() {
+    let without_real = set.found.iter().filter(|own| !own.is_real).count();
+    let open = match without_real {
+        0 => String::new(),
+        1 => "; of one family no real member was found at the places tried".into(),
+        count => format!("; of {count} families no real member was found at the places tried"),
+    };
+    let others = match set.found.len() - regular.len() - without_real {
         0 => String::new(),
         1 => "; one more lies where the mass matrix is singular, or outside of what the model assumes".into(),
         count => format!("; {count} more lie where the mass matrix is singular, or outside of what the model assumes"),
     };
+    let others = format!("{others}{open}");
+    if regular.is_empty() && without_real > 0 {
+        return format!("no {one} was found{others}");
+    }
     if regular.is_empty() {
         return format!("there is no {one}{others}");
     }
     let isolated = regular.iter().filter(|own| own.dimension() == 0).count();
     let counts = [
-        counted(
-            isolated,
-            &format!("isolated {one}"),
-            &format!("isolated {many}"),
-        ),
+        counted(isolated, one, many),
         counted(regular.len() - isolated, "family", "families"),
     ];
     let counts: Vec<String> = counts.into_iter().flatten().collect();
     let anywhere = match set.ignorable.as_slice() {
         [] => String::new(),
-        own => format!("; {} may be anywhere", own.join(", ")),
+        own => format!("; nothing depends on {}", own.join(", ")),
     };
     if set.variables.is_empty() {
         return format!("the system rests in every position{others}");

@@ -345,34 +345,22 @@ fn all_states_of_rest_are_claimed() {
     };
     let rest = "equilibrium.states";
     let pendulum = Case::gallery("double-pendulum");
-    starts(
-        &pendulum,
-        rest,
-        "proved: 4 isolated states of rest: a = 0, b = 0;",
-    );
+    starts(&pendulum, rest, "proved: 4 states of rest: a = 0, b = 0;");
     let disc = Case::gallery("falling-rolling-disc");
-    starts(
-        &disc,
-        rest,
-        "proved: one isolated state of rest: theta = 0; ",
-    );
+    starts(&disc, rest, "proved: one state of rest: theta = 0; ");
     starts(&disc, "steady.motions", "proved: 2 families: ");
     let sleigh = Case::gallery("chaplygin-sleigh");
     starts(&sleigh, rest, "proved: the system rests in every position");
     // The shaft of the governor turns, and only so its arms stand.
     let governor = Case::gallery("watt-governor");
     starts(&governor, rest, "proved: there is no state of rest");
-    starts(
-        &governor,
-        "steady.motions",
-        "proved: 4 isolated steady motions: ",
-    );
+    starts(&governor, "steady.motions", "proved: 4 steady motions: ");
     // A bead on a hoop that turns with W² = 2 g/R: sin θ (cos θ W² − g/R) = 0.
     let bead = one("1/2 (th'^2 + 2 sin(th)^2) + cos(th)", "0", "");
     starts(
         &bead,
         rest,
-        "proved: 4 isolated states of rest: th = -acos(1/2) = -1.0471975",
+        "proved: 4 states of rest: th = -acos(1/2) = -1.0471975",
     );
     // Where x' = y the system rests for y = 0 only.
     let carried = Case::new(
@@ -387,7 +375,7 @@ carried = "x' = y"
     starts(
         &carried,
         rest,
-        "proved: one isolated state of rest: y = 0; x may be anywhere",
+        "proved: one state of rest: y = 0; nothing depends on x",
     );
     // A constraint that no rest satisfies.
     let driven = Case::new(
@@ -419,14 +407,95 @@ driven = "x' = 1"
         "0",
         "assumptions = [\"cos(th) < 0\"]",
     );
-    starts(
-        &one_side,
-        rest,
-        "proved: one isolated state of rest: th = pi = 3.14",
-    );
+    starts(&one_side, rest, "proved: one state of rest: th = pi = 3.14");
     assert!(said(&one_side, rest).ends_with(
         "; one more lies where the mass matrix is singular, or outside of what the model assumes"
     ));
+}
+
+/// Values of roots, absolute values and angles, by hand: √x = 2, |x| = 1, √(1 + x²) = 2; sin a = sin b has b = a and b = π − a; √(x²) = x
+/// for x ≥ 0 alone.
+#[test]
+fn what_stands_under_a_root_is_solved_for() {
+    let set_of = |force: &str| set(&one("1/2 th'^2", force, "")).unwrap();
+    let values = |force: &str| -> Vec<f64> {
+        let found = set_of(force).found;
+        found.iter().map(|own| numbers(own)[0]).collect()
+    };
+    assert_eq!(values("sqrt(th) - 2"), [4.0]);
+    assert_eq!(values("abs(th) - 1"), [-1.0, 1.0]);
+    assert_eq!(values("1 - th^(1/3)"), [1.0]);
+    assert_eq!(values("abs(abs(th) - 2) - 1"), [-3.0, -1.0, 1.0, 3.0]);
+    let root = 3_f64.sqrt();
+    let found = values("sqrt(1 + th^2) - 2");
+    assert!((found[0] + root).abs() < 1e-15 && (found[1] - root).abs() < 1e-15);
+    let half = set_of("sqrt(th^2) - th").found;
+    let texts = |own: &Found, case: &Case| -> Vec<String> {
+        let g = &case.system.graph;
+        own.conditions.iter().map(|&e| g.text(e)).collect()
+    };
+    let case = one("1/2 th'^2", "sqrt(th^2) - th", "");
+    assert_eq!(texts(&set(&case).unwrap().found[0], &case), ["th_0"]);
+    assert_eq!(half.len(), 1);
+}
+
+/// Two rotors that turn each other by sin a − sin b and its opposite: they stand for b = a and b = π − a, whatever the sign of sin a.
+#[test]
+fn angles_of_a_family_have_either_sign() {
+    let case = Case::new(
+        r#"
+coordinates = ["a", "b"]
+[lagrangian]
+L = "1/2 (a'^2 + b'^2)"
+[forces]
+a = "sin(a) - sin(b)"
+b = "sin(b) - sin(a)"
+"#,
+    );
+    let own = set(&case).unwrap();
+    let g = &case.system.graph;
+    let value = |found: &Found, a: f64| {
+        let at = |e| g.evaluate_f64(&[e], &|_| Some(a)).unwrap()[0];
+        match (&found.values[0], &found.values[1]) {
+            (Value::Function(x), Value::Function(y)) => (at(*x), at(*y)),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(own.found.len(), 2);
+    for a in [1.0, -1.0, 2.5, -2.5] {
+        let found: Vec<(f64, f64)> = own.found.iter().map(|own| value(own, a)).collect();
+        for (x, y) in &found {
+            assert!((x.sin() - y.sin()).abs() < 1e-12, "{found:?}");
+        }
+        let difference = (found[0].1 - found[1].1).rem_euclid(std::f64::consts::TAU);
+        assert!(difference > 1e-3, "{found:?}");
+    }
+}
+
+/// With x'² + y'² = 9 under gravity a particle falls or rises steadily: there x' determines no velocity, and y' does.
+#[test]
+fn steady_motions_of_a_constraint_that_is_not_linear_are_found_by_other_velocities() {
+    let own = set(&Case::gallery("isokinetic-particle")).unwrap();
+    let mut found: Vec<Vec<f64>> = own.found.iter().map(numbers).collect();
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let speed = found[0][0].abs();
+    assert_eq!(own.variables, ["y'", "x'"]);
+    assert_eq!(found, [[-speed, 0.0], [speed, 0.0]]);
+}
+
+/// On which factor of a product a motion lies is not asked, and that is said.
+#[test]
+fn products_of_constraints_are_not_solved() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2) - 1/2 (x^2 + y^2)"
+[constraints]
+either = "x' (y' - 1) = 0"
+"#,
+    );
+    assert!(matches!(set(&case), Err(SteadySetError::Product { .. })));
 }
 
 /// One coordinate with a force.

@@ -313,3 +313,59 @@ fn modes_that_no_input_reaches() {
         assert!(unreached(&a, &input(1.0)).unwrap().is_empty());
     }
 }
+
+/// x'' = −x' − x/2 − |x| is unstable to one side, and x'' = −x − x' + sign x to both: where forces have a corner or a jump there are no linear
+/// equations. Beside it there are.
+#[test]
+fn a_corner_has_no_linear_equations() {
+    let at = |place: &str, energy: &str, force: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x"]
+[lagrangian]
+L = "{energy}"
+[forces]
+x = "{force}"
+[steady.s]
+x = "{place}"
+"x'" = 0
+"#
+        ))
+    };
+    for (energy, force) in [
+        ("1/2 x'^2", "-x' - x/2 - abs(x)"),
+        ("1/2 x'^2 - x^2/2 + abs(x)", "-x'"),
+        ("1/2 x'^2", "-x - x' + sign(x)"),
+        ("1/2 x'^2 - x^2/2", "-3 sign(x') - x'/10"),
+        ("1/2 x'^2 - x^2/2", "-abs(x')^(3/2)"),
+    ] {
+        let case = at("0", energy, force);
+        for claim in ["asymptotic", "spectral", "linear", "nonlinear"] {
+            let said = case.said(&format!("stability.{claim}"), "s");
+            assert!(said.contains("have a corner or a jump"), "{force}: {said}");
+        }
+    }
+    let beside = at("2", "1/2 x'^2", "1 - x' - abs(x)/2");
+    assert_eq!(beside.said("stability.asymptotic", "s"), "proved");
+}
+
+/// At x = 1/(a − 1) there is no motion for a = 1.
+#[test]
+fn a_pole_is_no_motion() {
+    let case = Case::new(
+        r#"
+coordinates = ["x"]
+parameters = { a = 2 }
+[lagrangian]
+L = "1/2 x'^2"
+[forces]
+x = "1 - (a - 1) x - x'"
+[steady.s]
+x = "1/(a - 1)"
+"x'" = 0
+over = "a"
+"#,
+    );
+    assert_eq!(case.said("stability.asymptotic", "s"), "a > 1");
+    assert_eq!(case.said("stability.nonlinear", "s"), "a > 1");
+}

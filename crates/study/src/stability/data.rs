@@ -138,6 +138,7 @@ impl Stability {
             value["numbers"] = json!(match why {
                 Numbers::Asked => "asked",
                 Numbers::TooLarge => "too large in symbols",
+                Numbers::SteadyThere => "steady at these values alone",
             });
         }
         if let Some(range) = &self.range {

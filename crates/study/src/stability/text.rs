@@ -225,6 +225,9 @@ impl Stability {
         let reason = match why {
             Numbers::Asked => "",
             Numbers::TooLarge => "The linear equations in symbols are too large to be printed.\n",
+            Numbers::SteadyThere => {
+                "The motion is steady at these values of the parameters, and not at all others.\n"
+            }
         };
         format!("{reason}Numbers, exact for {}", values.join(", "))
     }
@@ -370,7 +373,7 @@ impl Stability {
             Crossing::Collision => "two pairs of eigenvalues meet",
             Crossing::Infinity => "an eigenvalue goes to infinity",
             Crossing::Touching => {
-                "two eigenvalues are opposite, the stability is the same on both sides, and nothing is said of that value alone"
+                "two eigenvalues are opposite, and nothing is said of that value alone"
             }
         }
     }

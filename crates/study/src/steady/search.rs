@@ -188,12 +188,15 @@ impl Search {
             }
             let spectrum = &own.point.spectrum.values;
             let eigenvalues: Vec<String> = spectrum.iter().map(|l| number(l.re, l.im)).collect();
-            let _ = writeln!(
-                text,
-                "       eigenvalues {}: {}",
-                eigenvalues.join("  "),
-                where_eigenvalues_lie(spectrum)
-            );
+            let _ = match eigenvalues.as_slice() {
+                [] => writeln!(text, "       no eigenvalues but those that structure gives"),
+                own => writeln!(
+                    text,
+                    "       eigenvalues {}: {}",
+                    own.join("  "),
+                    where_eigenvalues_lie(spectrum)
+                ),
+            };
         }
         let _ = writeln!(
             text,

@@ -200,7 +200,11 @@ th = "acos(k/W^2)"
             assert_eq!(*kind, expected, "W = {w}, k = {k}");
         }
     }
-    let edge: Vec<_> = drawn.curves.iter().filter(|own| own.kind == "end").collect();
+    let edge: Vec<_> = drawn
+        .curves
+        .iter()
+        .filter(|own| own.kind == "end")
+        .collect();
     assert!(!edge.is_empty());
     for (w, k) in edge.iter().flat_map(|own| &own.points) {
         assert!((k - w * w).abs() < 1e-9, "W = {w}, k = {k}");

@@ -35,6 +35,8 @@ pub(super) struct Comparison<'f> {
     pub(super) refutes: bool,
     /// Whether the conditions where two faces meet contradict each other.
     contradicts_at_corner: Cell<bool>,
+    /// What is known not to be negative at the place that is looked at, and may be so elsewhere: the branch of a root or an absolute value.
+    pub(super) nonnegative: Vec<Expr>,
     /// Whether jets of a system are those of solutions, as far as that was asked.
     pub(super) extended: RefCell<BTreeMap<System, bool>>,
 }
@@ -59,7 +61,7 @@ pub(super) struct Judged {
 }
 
 impl<'f> Comparison<'f> {
-    /// Where some expressions are known not to be negative.
+    /// Where some expressions are known not to be negative at the place that is looked at.
     pub(super) fn new(
         functional: &'f Functional,
         variation: &'f Variation,
@@ -80,6 +82,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: true,
             contradicts_at_corner: Cell::new(false),
+            nonnegative: nonnegative.to_vec(),
             extended: RefCell::default(),
         }
     }
@@ -100,6 +103,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: self.refutes,
             contradicts_at_corner: Cell::new(false),
+            nonnegative: self.nonnegative.clone(),
             extended: RefCell::default(),
         }
     }
@@ -622,7 +626,7 @@ pub(super) fn groups(functional: &Functional, role: Role, on: Option<&str>) -> V
 }
 
 /// The Euler equations, those of one field together.
-fn euler_groups(functional: &Functional, variation: &Variation) -> Vec<Group> {
+pub(super) fn euler_groups(functional: &Functional, variation: &Variation) -> Vec<Group> {
     let own = functional.interior().map(|field| Group {
         label: format!("the Euler equation of {}", field.name),
         equations: variation

@@ -6,12 +6,13 @@
 //! without data (an end that is free, or on a spring) hold for few fields, and together they may enforce what no equation says at
 //! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
 
-use super::comparison::{Comparison, System};
+use super::comparison::{euler_groups, groups, Comparison, System};
 use crate::elimination::Solved;
-use crate::functional::{Piece, Side};
+use crate::functional::{Piece, Role, Side};
 use crate::smoothness::{guards, Guard, Region};
-use crate::space::Jet;
-use chetaev_symbolic::zero::assumptions::Relation;
+use crate::space::{Jet, Space};
+use chetaev_symbolic::factors::irreducible_factors;
+use chetaev_symbolic::zero::assumptions::{is_implied, Relation};
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
 
@@ -39,6 +40,102 @@ impl<'f> Comparison<'f> {
         // What is left of the equations of the body may be differentiated across a piece, and was not there.
         let is_solved = on.is_none() || solved.left.is_empty();
         is_solved && self.is_regular(solved) && self.has_data(es, system, on)
+    }
+
+    /// Fields and data of which something is assumed, or whose signs a branch has.
+    fn signed(&self) -> BTreeSet<usize> {
+        let space = &*self.functional.space;
+        let assumed = space.assumptions();
+        let sides = assumed.list().iter().flat_map(|own| [own.left, own.right]);
+        let all: Vec<Expr> = sides.chain(self.nonnegative.iter().copied()).collect();
+        let jets = space.jets_in(&all).into_iter();
+        jets.map(|jet| jet.component).collect()
+    }
+
+    /// Whether fields with a jet at a place can keep to what is assumed of them, and to the signs of a branch, everywhere: either no condition
+    /// on the boundary without data of its own speaks of these fields; or what is assumed holds strictly where all fields vanish, and so do the
+    /// conditions, so that it holds for small fields, among which are some that refute.
+    fn keeps_signs(&self, system: System, looked_at: &BTreeSet<Datum>) -> bool {
+        let signed = self.signed();
+        if signed.is_empty() {
+            return true;
+        }
+        let space = &*self.functional.space;
+        let pieces = self.functional.pieces.iter();
+        let here = pieces.filter_map(|piece| self.on(piece, system));
+        let conditions = here.flat_map(|own| own.beyond(self.inside(system)));
+        let bound = conditions.map(|e| Bound {
+            e,
+            data: self.data_in(e),
+            is_inside: false,
+        });
+        let bare = self.without_data(bound.collect(), looked_at);
+        let speaks = |own: &Bound| {
+            let jets = space.jets_in(&[own.e]).into_iter();
+            jets.into_iter().any(|jet| signed.contains(&jet.component))
+        };
+        !bare.iter().any(speaks)
+            || (bare.iter().all(|own| self.is_zero_at_rest(own.e))
+                && self.assumes_strictly_at_rest())
+    }
+
+    fn at_rest(&self, e: Expr) -> Expr {
+        let space = &*self.functional.space;
+        let zero = space.graph.zero();
+        space.replace(space.explicit(e), &|symbol| {
+            space.as_jet(symbol).map(|_| zero)
+        })
+    }
+
+    fn is_zero_at_rest(&self, e: Expr) -> bool {
+        self.functional.space.vanishes(self.at_rest(e))
+    }
+
+    fn assumes_strictly_at_rest(&self) -> bool {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let assumed = space.assumptions();
+        let mut all = assumed.list().iter();
+        self.nonnegative.is_empty()
+            && all.all(|own| {
+                let difference = g.sub(own.left, own.right);
+                let is_of_fields = !space.jets_in(&[difference]).is_empty();
+                let strict = match own.relation {
+                    Relation::GreaterOrEqual => Relation::Greater,
+                    Relation::LessOrEqual => Relation::Less,
+                    other => other,
+                };
+                !is_of_fields || is_implied(strict, space.sign(self.at_rest(difference)))
+            })
+    }
+
+    /// The equations of the body as they are written, by nothing divided.
+    fn as_written(&self, system: System) -> Vec<Expr> {
+        let functional = self.functional;
+        let own = match system {
+            System::Derived => euler_groups(functional, self.variation),
+            System::Stated => groups(functional, Role::Yielded, None),
+        };
+        let imposed = groups(functional, Role::Imposed, None).into_iter();
+        let all = imposed.chain(own).flat_map(|group| group.equations);
+        all.filter(|&e| !functional.space.vanishes(e)).collect()
+    }
+
+    /// Whether equations have solutions with any jets that satisfy them at one place: those that are linear have, as their solutions go on to
+    /// the ends of the body; of others, as u' = 1 + u², they may end before. In more than one dimension the coefficients have to be
+    /// constant (Ehrenpreis and Malgrange, 1955).
+    fn have_solutions(&self, equations: &[Bound]) -> bool {
+        let space = &*self.functional.space;
+        let is_line = space.coordinates.len() == 1;
+        let factors = equations
+            .iter()
+            .flat_map(|own| jet_factors(&self.functional.space, own.e));
+        factors.into_iter().all(|e| {
+            space.jets_in(&[e]).iter().all(|jet| {
+                let slope = [space.partial(e, jet)];
+                space.jets_in(&slope).is_empty() && (is_line || !space.is_of_place(&slope))
+            })
+        })
     }
 
     /// Whether what is divided by to solve the equations of the body for derivatives vanishes nowhere, its ends included, and their coefficients
@@ -87,11 +184,19 @@ impl<'f> Comparison<'f> {
             let mut all = inside.clone();
             all.extend(on_pieces.map(|e| bound(e, false)));
             let left = self.without_data(all, &looked_at);
-            self.variation.corners.is_empty() && left.iter().all(|own| own.is_inside)
+            self.signed().is_empty()
+                && self.is_regular_everywhere(solved)
+                && self.variation.corners.is_empty()
+                && left.iter().all(|own| own.is_inside)
+                && self.have_solutions(&left)
         };
+        let written = self.as_written(system).into_iter();
+        let written: Vec<Bound> = written.map(|e| bound(e, true)).collect();
+        let hold = |all: &[Bound]| self.without_data(all.to_vec(), &looked_at).is_empty();
         let is_local = || {
             let mut pieces = functional.pieces.iter();
-            self.without_data(inside.clone(), &looked_at).is_empty()
+            (hold(&written) || (self.is_regular_everywhere(solved) && hold(&inside)))
+                && self.keeps_signs(system, &looked_at)
                 && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
         };
         let found = is_local() || is_continued();
@@ -130,10 +235,16 @@ impl<'f> Comparison<'f> {
                 let mut others = open.iter().enumerate().filter(|(other, _)| *other != at);
                 others.any(|(_, own)| own.data.contains(datum))
             };
-            own.data.iter().any(|datum| {
-                let is_bound = is_number(datum) && (own.is_inside || looked_at.contains(datum));
-                !is_bound && !stands_elsewhere(datum) && self.solves(own.e, datum)
-            })
+            // Of a product one factor vanishes at the jet, and is to vanish everywhere.
+            jet_factors(&self.functional.space, own.e)
+                .into_iter()
+                .all(|factor| {
+                    own.data.iter().any(|datum| {
+                        let is_bound =
+                            is_number(datum) && (own.is_inside || looked_at.contains(datum));
+                        !is_bound && !stands_elsewhere(datum) && self.solves(factor, datum)
+                    })
+                })
         };
         while let Some(at) = (0..open.len()).find(|&at| holds_by_own(at, &open)) {
             open.remove(at);
@@ -174,25 +285,17 @@ impl<'f> Comparison<'f> {
             found.extend(used.map(Datum::Parameter));
         }
         let assumed = space.assumptions();
-        let assumed: Vec<Expr> = assumed
-            .list()
-            .iter()
-            .flat_map(|own| [own.left, own.right])
-            .collect();
-        let symbols = space.symbols_in(&assumed);
-        let jets: BTreeSet<usize> = space
-            .jets_in(&assumed)
-            .iter()
-            .map(|j| j.component)
-            .collect();
+        let sides = assumed.list().iter().flat_map(|own| [own.left, own.right]);
+        let symbols = space.symbols_in(&sides.collect::<Vec<Expr>>());
+        let signed = self.signed();
         found.retain(|datum| match datum {
-            Datum::Component(own) => !jets.contains(own),
+            Datum::Component(own) => !signed.contains(own),
             Datum::Parameter(own) => !symbols.contains(own),
         });
         found
     }
 
-    /// Whether an equation is solved for a datum at each place: it is linear in it, with a factor that is a number.
+    /// Whether an equation is solved for a datum at each place: it is linear in it, with a factor of numbers and parameters.
     fn solves(&self, e: Expr, datum: &Datum) -> bool {
         let space = &*self.functional.space;
         let g = &space.graph;
@@ -208,6 +311,22 @@ impl<'f> Comparison<'f> {
             }
             Datum::Parameter(symbol) => space.derive(e, &|s| (s == *symbol).then(|| g.one())),
         };
-        g.as_number(slope).is_some() && !g.is_zero(slope)
+        let is_constant = space.jets_in(&[slope]).is_empty() && !space.is_of_place(&[slope]);
+        is_constant && !space.vanishes(slope)
+    }
+}
+
+/// The factors of an expression in which jets occur, without powers: it vanishes where one of them does.
+pub(super) fn jet_factors(space: &Space, e: Expr) -> Vec<Expr> {
+    let g = &space.graph;
+    let e = space.explicit(e);
+    let symbols: Vec<Symbol> = space.symbols_in(&[e]).into_iter().collect();
+    let all = irreducible_factors(g, e, &symbols).unwrap_or_default();
+    let has_jets = |e: &Expr| !space.jets_in(&[*e]).is_empty();
+    let found: Vec<Expr> = all.into_iter().map(|(e, _)| e).filter(has_jets).collect();
+    if found.is_empty() {
+        vec![e]
+    } else {
+        found
     }
 }

@@ -72,7 +72,11 @@ impl Claim for Euler {
         }
         let own = reduced(functional);
         let verdict = match branches(&own) {
-            Some(all) => on_branches(&all),
+            // Where only one branch is possible its signs are known everywhere.
+            Some(all) => match all.as_slice() {
+                [only] => on_branch(&only.functional, &[]),
+                all => on_branches(all),
+            },
             None => on_branch(&own, &[]),
         };
         let Some(conditions) = where_defined(functional) else {

@@ -7,7 +7,7 @@
 //! u'' = u³, where it grows at most in proportion to what vanishes.
 
 use super::comparison::{AtEnd, Comparison};
-use crate::elimination::{Entries, Group, Pivot, Solved};
+use crate::elimination::{Group, Solved};
 use crate::functional::{Piece, Side};
 use crate::smoothness::guard_of;
 use crate::variation::OnPiece;
@@ -28,7 +28,8 @@ impl<'f> Comparison<'f> {
         at_end: &AtEnd<'_, 'f>,
     ) -> bool {
         let vanish = |&e: &Expr| inside.follows(&[e]) || self.vanishes_along(e, inside, at_end);
-        es.iter().all(vanish)
+        // A branch knows a sign at one place, and not along the way.
+        self.nonnegative.is_empty() && es.iter().all(vanish)
     }
 
     /// Whether a system carries an expression along one of the variables from a face on which it vanishes.
@@ -41,7 +42,7 @@ impl<'f> Comparison<'f> {
             let mut ends = self.ends_across(axis);
             ends.any(|(on, piece)| {
                 let there = at_end(on, piece);
-                let is_zero = there.follows(&chain) && self.is_regular_at(&there);
+                let is_zero = there.follows(&chain) && !there.is_divided_by_jets();
                 if is_zero {
                     self.divided_by(&there);
                 }
@@ -50,16 +51,10 @@ impl<'f> Comparison<'f> {
         })
     }
 
-    /// Whether fields occur in nothing that was divided by, which vanishes nowhere on the body: a quotient of fields that vanish at an end
-    /// says nothing of them there.
-    fn is_regular_everywhere(&self, solved: &Solved<'f>) -> bool {
-        self.is_regular_at(solved) && self.is_regular(solved)
-    }
-
-    fn is_regular_at(&self, solved: &Solved<'f>) -> bool {
-        let is_free = |e: &Expr| !self.has_fields(*e);
-        let of_fields = |pivot: &Pivot| pivot.entries == Entries::Fields;
-        solved.divisors.iter().all(is_free) && !solved.pivots.iter().any(of_fields)
+    /// Whether neither fields nor data occur in what was divided by, which vanishes nowhere on the body: a quotient of fields that vanish at
+    /// an end says nothing of them there.
+    pub(super) fn is_regular_everywhere(&self, solved: &Solved<'f>) -> bool {
+        !solved.is_divided_by_jets() && self.is_regular(solved)
     }
 
     /// What vanishes with an expression and with its derivatives along an axis: jets less their values, whose rates along the axis vanish where
@@ -97,13 +92,16 @@ impl<'f> Comparison<'f> {
     }
 
     /// Whether a function changes at most in proportion to the fields in it: no root of a field, as in u'' = √u, of which u = 0 and
-    /// u = x⁴/144 begin alike, and no quotient by one.
+    /// u = x⁴/144 begin alike, and no quotient by one. A function without a formula may be such a root.
     fn is_lipschitz(&self, e: Expr) -> bool {
         let space = &*self.functional.space;
         let g = &space.graph;
+        if space.has_applications(space.explicit(e)) {
+            return false;
+        }
         let nodes = g.reachable(&[space.explicit(e)]).into_iter();
-        let mut of_fields = nodes.filter(|&node| self.has_fields(node));
-        of_fields.all(|node| {
+        let mut of_jets = nodes.filter(|&node| !space.jets_in(&[node]).is_empty());
+        of_jets.all(|node| {
             let is_kink = matches!(
                 g.node(node),
                 Node::Apply {

@@ -5,6 +5,7 @@
 
 use super::super::on_box::on_box;
 use super::comparison::System;
+use super::extension::jet_factors;
 use crate::functional::{Functional, Interval, Piece, Role, Side, Solution};
 use crate::linear;
 use crate::polynomial::Polynomial;
@@ -24,7 +25,13 @@ const MOST: usize = 120;
 /// So many choices of values for parameters are tried.
 const CHOICES: i64 = 2;
 
+/// More choices of factors of products are not tried.
+const MOST_PRODUCTS: usize = 8;
+/// Of more fields no one is chosen alone.
+const MOST_FIELDS: usize = 6;
+
 /// A condition with the values of the variables that are constant where it holds.
+#[derive(Clone)]
 struct Holds {
     what: String,
     residual: Expr,
@@ -286,17 +293,46 @@ impl<'f> Search<'f> {
         let is_claimed = |own: &&Holds| !own.is_imposed && (!self.is_placed || own.at.len() < 2);
         let violated = self.system(other).iter().filter(is_claimed);
         let violated: Vec<&Holds> = violated.collect();
+        let choices = self.choices_of_factors(all);
         DEGREES.iter().find_map(|&degree| {
-            let fields = self.fields_of(all, degree)?;
-            violated.iter().find_map(|own| {
-                let value = self.value(own, &fields)?;
-                (!value.is_zero()).then(|| self.refuted(own, one, &fields, &value))
+            let mut all = choices.iter().flat_map(|all| self.fields_of(all, degree));
+            all.find_map(|fields| {
+                violated.iter().find_map(|own| {
+                    let value = self.value(own, &fields)?;
+                    (!value.is_zero()).then(|| self.refuted(own, one, &fields, &value))
+                })
             })
         })
     }
 
-    /// Polynomials with which a system holds: of data alone, with fields that vanish, where it is not linear in the fields.
-    fn fields_of(&self, all: &[Holds], degree: u32) -> Option<Fields> {
+    /// The conditions with one factor of each product: where it vanishes the product does.
+    fn choices_of_factors(&self, all: &[Holds]) -> Vec<Vec<Holds>> {
+        let space = &*self.functional.space;
+        let mut found: Vec<Vec<Holds>> = vec![Vec::new()];
+        for own in all {
+            let mut factors = jet_factors(space, with(self.functional, &self.values, own.residual));
+            if found.len() * factors.len() > MOST_PRODUCTS {
+                factors = vec![own.residual];
+            }
+            found = found
+                .iter()
+                .flat_map(|before| {
+                    factors.iter().map(|&residual| {
+                        let mut next = before.clone();
+                        next.push(Holds {
+                            residual,
+                            ..own.clone()
+                        });
+                        next
+                    })
+                })
+                .collect();
+        }
+        found
+    }
+
+    /// Polynomials with which a system holds. Where it is not linear in the fields some of them are chosen: zero, or linear functions.
+    fn fields_of(&self, all: &[Holds], degree: u32) -> Vec<Fields> {
         let space = &*self.functional.space;
         let residuals: Vec<Expr> = all.iter().map(|own| own.residual).collect();
         let residuals: Vec<Expr> = residuals
@@ -310,16 +346,46 @@ impl<'f> Search<'f> {
             .interior()
             .flat_map(|field| field.components.clone())
             .collect();
-        let nothing = Fields::new();
-        let at_rest: Fields = interior
-            .iter()
-            .map(|&component| (component, Polynomial::default()))
-            .collect();
-        [nothing, at_rest].into_iter().find_map(|known| {
+        let solved = |known: Fields| {
             let open = components.iter().filter(|own| !known.contains_key(own));
             let open: Vec<usize> = open.copied().collect();
             self.solved(all, (&open, degree), known)
-        })
+        };
+        if let Some(found) = solved(Fields::new()) {
+            return vec![found];
+        }
+        self.known_fields(&interior)
+            .into_iter()
+            .filter_map(solved)
+            .collect()
+    }
+
+    /// Choices of fields with which equations may be linear in the others: all zero, one of them zero, all linear in the place.
+    fn known_fields(&self, interior: &BTreeSet<usize>) -> Vec<Fields> {
+        let space = &*self.functional.space;
+        let d = space.coordinates.len();
+        let zero = |&component: &usize| (component, Polynomial::default());
+        let mut found: Vec<Fields> = vec![interior.iter().map(zero).collect()];
+        if interior.len() > MOST_FIELDS {
+            return found;
+        }
+        found.extend(interior.iter().map(|own| Fields::from([zero(own)])));
+        let linear = |(at, &component): (usize, &usize)| {
+            let mut own = Polynomial::constant(Rational::from(at + 2));
+            for axis in 0..d {
+                let mut exponents = vec![0; d];
+                exponents[axis] = 1;
+                let slope = Rational::from(at + axis + 1);
+                own.add(&Polynomial::monomial(exponents, slope), &Rational::ONE);
+            }
+            (component, own)
+        };
+        let constant = |(at, &component): (usize, &usize)| {
+            (component, Polynomial::constant(Rational::from(at + 1)))
+        };
+        found.push(interior.iter().enumerate().map(constant).collect());
+        found.push(interior.iter().enumerate().map(linear).collect());
+        found
     }
 
     fn solved(
