@@ -285,7 +285,7 @@ pub fn may_be_speeds(
         return false;
     }
     let entries = rows.concat();
-    let mut generator = Generator::new(0x5bee_d5);
+    let mut generator = Generator::new(0x005b_eed5);
     (0..PLACES_OF_SPEEDS).any(|_| {
         let symbols = g.symbols_in(&entries).into_iter();
         let values: BTreeMap<Symbol, f64> =

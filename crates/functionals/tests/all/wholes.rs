@@ -266,3 +266,235 @@ fn conditions_along_a_face_are_no_data() {
     assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
     assert!(verdict.detail().contains("k ≠ 0"), "{}", verdict.detail());
 }
+
+/// What is said of a functional with data, as a whole text.
+fn said(text: &str) -> (String, String) {
+    let study = studied_text("p4p", text, &[]);
+    let verdict = decided(&study, "functional.euler");
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+/// With w(0) = −1 and w(1) = 1 the slope is 2 at both ends, although it is zero wherever w has one sign.
+#[test]
+fn a_sign_at_one_place_is_none_at_another() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "BR3"
+density = "1/2 u,x^2"
+yields = ["a", "b", "c", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "(abs(w)^3 - w^3) u"
+"x = 1" = "-(abs(w)^3 + w^3) u"
+[equations]
+a = "u,xx = 0"
+b = { equation = "u,x = abs(w)^3 - w^3", on = "x = 0" }
+c = { equation = "u,x = abs(w)^3 + w^3", on = "x = 1" }
+z = "u,x = 0"
+[data]
+w = "scalar"
+"#,
+    );
+    assert!(word != "proved" && word != "refuted", "{word}: {detail}");
+}
+
+/// u'' = |g| with u' = 0 at both ends gives ∫|g| = 0, so that u' = 0 follows, and no jet with a load refutes it.
+#[test]
+fn a_load_of_one_sign_on_a_free_body_is_none() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "GL1"
+density = "1/2 u,x^2 + u abs(g)"
+yields = ["a", "n0", "n1", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+[equations]
+a = "u,xx = abs(g)"
+n0 = { equation = "u,x = 0", on = "x = 0" }
+n1 = { equation = "u,x = 0", on = "x = 1" }
+z = "u,x = 0"
+[data]
+g = "scalar"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// What grows everywhere and is zero at both ends is zero.
+#[test]
+fn what_is_assumed_everywhere_binds_the_whole() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "AS1"
+density = "1/2 u,x^2 - q u"
+yields = ["e", "u0", "u1", "m0", "k0", "z"]
+assumptions = ["u,x >= 0"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+m = { kind = "scalar", on = "x = 0" }
+k = { kind = "scalar", on = "x = 1" }
+[boundary]
+"x = 0" = "m u"
+"x = 1" = "k u"
+[equations]
+e = "u,xx + q = 0"
+u0 = { equation = "u = 0", on = "x = 0" }
+u1 = { equation = "u = 0", on = "x = 1" }
+m0 = { equation = "m = u,x", on = "x = 0" }
+k0 = { equation = "k = -u,x", on = "x = 1" }
+z = "u = 0"
+[data]
+q = "scalar"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// v u' = v (u² + 1) on a body longer than π leaves v = 0 alone.
+#[test]
+fn a_solution_that_ends_before_the_body_is_none() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "GE2"
+density = "p v (u,x - u^2 - 1) + r v,x"
+yields = ["a", "b", "c", "d", "e0", "e1", "f0", "f1", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 100] }
+[fields]
+u = "scalar"
+v = "scalar"
+p = "scalar"
+r = "scalar"
+[boundary]
+"x = 0" = "-P u - R v"
+"x = 100" = "-Q u - S v"
+[equations]
+a = "v (u,x - u^2 - 1) = 0"
+b = "v,x = 0"
+c = "(p v),x + 2 p v u = 0"
+d = "p (u,x - u^2 - 1) = r,x"
+e0 = { equation = "p v = -P", on = "x = 0" }
+e1 = { equation = "p v = Q", on = "x = 100" }
+f0 = { equation = "r = -R", on = "x = 0" }
+f1 = { equation = "r = S", on = "x = 100" }
+z = "v = 0"
+[data]
+P = { kind = "scalar", on = "x = 0" }
+R = { kind = "scalar", on = "x = 0" }
+Q = { kind = "scalar", on = "x = 100" }
+S = { kind = "scalar", on = "x = 100" }
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// Where |a| is largest a' = 0, so that b a' = a gives a = 0 there.
+#[test]
+fn a_quotient_of_fields_is_no_free_field() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "RO1"
+density = "0 a"
+yields = ["z"]
+imposed = ["e", "a0", "a1"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+a = "scalar"
+b = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+[equations]
+e = "b a,x = a"
+a0 = { equation = "a = 0", on = "x = 0" }
+a1 = { equation = "a = 0", on = "x = 1" }
+z = "a = 0"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// With the conjugate of s⁴/4 stress and displacement leave zero together: s = c³ x³, u = 3 c³ x² for c² = 1/6.
+#[test]
+fn an_energy_without_a_formula_may_be_a_root() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "AB3"
+density = "s_11 u,1 - B(s) + 1/2 u^2 - r_11 v,1 + B(r) - 1/2 v^2"
+yields = ["a", "b", "c", "d", "e", "f", "g", "z"]
+[sizes]
+d = 1
+[domain]
+coordinates = "x_i"
+intervals = { x_1 = [0, 1] }
+[fields]
+u = "scalar"
+v = "scalar"
+s = "symmetric"
+r = "symmetric"
+m = { kind = "scalar", on = "x_1 = 0" }
+[boundary]
+"x_1 = 0" = "m (u - v)"
+"x_1 = 1" = { fixed = ["u", "v"] }
+[equations]
+a = "u,1 = B'_11(s)"
+b = "s_11,1 = u"
+c = "v,1 = B'_11(r)"
+d = "r_11,1 = v"
+e = { equation = "u = v", on = "x_1 = 0" }
+f = { equation = "m = s_11", on = "x_1 = 0" }
+g = { equation = "s_11 = r_11", on = "x_1 = 0" }
+z = "u = v"
+[functions]
+A = { of = "symmetric", conjugate = "B", value = "1/4 X_11^4" }
+B = { of = "symmetric", conjugate = "A", description = "b" }
+"#,
+    );
+    assert!(word != "proved", "{word}: {detail}");
+}
+
+/// a = 0 and b = 1 + x satisfy what is imposed.
+#[test]
+fn what_was_divided_by_may_vanish() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "FC1"
+density = "0 a"
+yields = ["z"]
+imposed = ["e", "f", "a0", "b0"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+a = "scalar"
+b = "scalar"
+c = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+[equations]
+e = "b a,x = a"
+f = "b,x = 1"
+a0 = { equation = "a = 0", on = "x = 0" }
+b0 = { equation = "b = 1", on = "x = 0" }
+z = "a = 0"
+"#,
+    );
+    assert!(!detail.contains("never so"), "{word}: {detail}");
+}

@@ -66,9 +66,7 @@ pub(super) fn search(
     let first = starts.first().map_or(&[][..], |own| &own.1);
     let which = (Coordinates::NotIgnorable, first);
     let flow = Flow::of_system(system, terms, selection, which)?;
-    let of = |(name, point): &(String, Vec<(Symbol, f64)>)| {
-        Some((Some(name.clone()), flow.state(point).ok()?))
-    };
+    let of = |(name, point): &Start| Some((Some(name.clone()), flow.state(point).ok()?));
     let mut all: Vec<(Option<String>, Vec<f64>)> = starts.iter().filter_map(of).collect();
     let about = flow.state(first)?;
     all.extend(places_about(&flow, &about).map(|place| (None, place)));
@@ -102,12 +100,11 @@ pub(super) fn search(
     })
 }
 
+/// The name of a motion with values of coordinates, velocities and parameters.
+type Start = (String, Vec<(Symbol, f64)>);
+
 /// The motions that the model names, its initial state, and rest in its initial positions; those of which numbers are known.
-fn starts(
-    model: &Model,
-    system: &System,
-    prepared: &Prepared,
-) -> Result<Vec<(String, Vec<(Symbol, f64)>)>, FollowError> {
+fn starts(model: &Model, system: &System, prepared: &Prepared) -> Result<Vec<Start>, FollowError> {
     let values = system.parameter_values();
     let none = || {
         Err(SteadySetError::NotPolynomial {

@@ -40,11 +40,12 @@ impl Claim for Euler {
          equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
          conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
          other holds, both ways, inside and on each piece. Equations are compared at one place, by algebra and differentiation; what the equations of the \
-         body carry along is decided at an end (the theorem of uniqueness, Lipschitz 1876). Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
+         body carry along, at most in proportion to itself, is decided at an end (the theorem of uniqueness, Lipschitz 1876). Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
          energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
          regular. Where a coefficient of the densities jumps or has a kink inside the body, conditions hold that are not derived, and the claim \
          is not applicable. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
-         jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution; else polynomials \
+         jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution (each equation of the body has \
+         data of its own, or these are linear and each condition on the boundary has); else polynomials \
          that satisfy one system in the body and on its boundary, and not the other. Where there are none the claim is undecided, as conditions at \
          several places may enforce together what none of them does (a beam without supports whose load is zero only moves rigidly)."
     }
