@@ -502,7 +502,7 @@ fn a_map_does_not_depend_on_threads() {
     let (one, many) = (with(1), with(5));
     let bits = |list: &[f64]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&one.growth), bits(&many.growth));
-    assert_eq!(one.is_stable, many.is_stable);
+    assert_eq!(one.kinds, many.kinds);
     assert_eq!(one.curves, many.curves);
     // A thin disc rolls upright where spin² > g/(3 r) (Routh 1905).
     assert!(!one.curves.is_empty());
