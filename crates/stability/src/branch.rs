@@ -246,8 +246,16 @@ impl Chain<'_, '_> {
         let meets = |e: Expr, ball: &Ball| enclosed(e).is_some_and(|own| own.overlaps(ball));
         let mut all = Vec::new();
         for ball in found {
-            if self.is_root(generator) && ball.sign() == Some(Ordering::Less) {
-                continue;
+            match ball.sign() {
+                Some(Ordering::Less) if self.is_root(generator) => continue,
+                // Whether it is negative was not decided.
+                None if self.is_root(generator) => {
+                    let own = self.field.generators()[generator].expr;
+                    return Err(SteadySetError::NotEnclosed {
+                        polynomial: format!("an equation for {}", g.text(own)),
+                    });
+                }
+                _ => {}
             }
             let mut own = branch.clone();
             let form = closed_forms.iter().find(|&&e| meets(e, &ball));

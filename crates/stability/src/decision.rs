@@ -717,9 +717,10 @@ impl Pieces {
         match (condition.is_empty(), counterexample) {
             (true, Some(own)) => Verdict::Refuted(own),
             (true, None) => Verdict::undecided("no interval is left between the boundaries"),
-            (false, None) if is_everywhere => {
-                Verdict::Proved(Proof::exact("at the steady motion", reasons.join("; ")))
-            }
+            (false, None) if is_everywhere => Verdict::Proved(Proof::exact(
+                "at the steady motion, for all values for which it and the equations are defined",
+                reasons.join("; "),
+            )),
             (false, counterexample) => Verdict::Conditional {
                 condition,
                 proof: Proof::exact(

@@ -189,6 +189,22 @@ impl<'a> Expansion<'a> {
 
     fn check_constraints(&self) -> Result<(), LinearizationError> {
         let g = self.graph();
+        // One finite constraint lets a coordinate follow whose position is not given; several tie the others by it.
+        let finite = self.system.constraints.iter();
+        let finite = finite.filter(|own| own.kind == ConstraintKind::Holonomic);
+        let finite: Vec<Expr> = finite.map(|own| own.stated).collect();
+        for &j in &self.state.without_position {
+            let coordinate = &self.system.coordinates[j];
+            let holding = finite
+                .iter()
+                .filter(|&&e| g.contains_any(e, &[coordinate.q_symbol]));
+            if holding.count() > 1 {
+                return Err(LinearizationError::PositionMissing {
+                    motion: self.motion.name.clone(),
+                    coordinate: coordinate.name.clone(),
+                });
+            }
+        }
         // Constraints that follow from others hold with them, but where only the derivative of a finite one is among these.
         for row in 0..self.terms.constraints.len() {
             let constraint = &self.system.constraints[self.terms.constraint_index[row]];

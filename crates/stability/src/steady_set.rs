@@ -8,6 +8,7 @@
 use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, is_singular_at, other_charts, union};
 use crate::problem::LinearizationError;
+use crate::real_values::corners;
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, closed};
 pub use crate::steady_motions::{Found, SteadySet};
@@ -168,6 +169,8 @@ fn in_chart(
         }
     }
     sort(&mut found);
+    distinct(&mut found);
+    sort(&mut found);
     Ok(SteadySet {
         variables: unknowns.iter().map(|u| u.name.clone()).collect(),
         speeds: equations.speeds(),
@@ -226,7 +229,16 @@ impl<'a> Equations<'a> {
         let finite = finite.map(|c| c.stated);
         let implicit = own.characteristics.manifold.implicit.iter();
         let mut vanishing = [own.rates.clone(), own.equations.force.clone()].concat();
-        vanishing.extend(finite.filter(|&e| !g.contains_any(e, &ignorable)));
+        // One constraint lets an ignorable coordinate follow; several tie the others by it.
+        let finite: Vec<Expr> = finite.collect();
+        let follows = |symbol: &Symbol| {
+            let holding = finite.iter().filter(|&&e| g.contains_any(e, &[*symbol]));
+            holding.count() < 2
+        };
+        let ignorable: Vec<Symbol> = ignorable.into_iter().filter(follows).collect();
+        let kept = finite.iter().copied();
+        let kept = kept.filter(|&e| !g.contains_any(e, &ignorable));
+        vanishing.extend(kept);
         vanishing.extend(implicit.clone().map(|(e, _)| *e));
         let at_rest = match asked.sought {
             Sought::SteadyMotions => Vec::new(),
@@ -242,15 +254,15 @@ impl<'a> Equations<'a> {
         let slopes: Vec<Expr> = own.characteristics.basis.concat();
         let slopes = at_point(g, &slopes, &[&controls, &at_rest, values]);
         let regular = implicit.clone().map(|(e, symbol)| g.diff(*e, *symbol));
-        let regular: Vec<Expr> = regular.chain(independence(g, &own)).collect();
+        let regular = regular.chain(independence(g, &own));
+        let regular: Vec<Expr> = regular.chain(corners_of(system)).collect();
         let regular = at_point(g, &regular, &[&controls, &at_rest, values]);
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
             return Err(LinearizationError::NotAutonomous.into());
         }
         let is_unknown = |j: &usize| {
             own.coordinates.contains(j)
-                || (asked.sought == Sought::Rest
-                    && g.any_contains_any(&vanishing, &[system.coordinates[*j].q_symbol]))
+                || g.any_contains_any(&vanishing, &[system.coordinates[*j].q_symbol])
         };
         let coordinates: Vec<usize> = (0..system.n()).filter(is_unknown).collect();
         let named = coordinates.iter().map(|&j| &system.coordinates[j]);
@@ -416,6 +428,28 @@ fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
         }
     }
     all
+}
+
+/// What may not vanish so that L and the constraints have derivatives, and forces no jump.
+fn corners_of(system: &System) -> Vec<Expr> {
+    let g = &system.graph;
+    let constraints = system.constraints.iter();
+    let differentiated: Vec<Expr> = constraints
+        .flat_map(|own| [own.stated, own.f])
+        .chain([system.lagrangian])
+        .collect();
+    let of_forces = corners(g, &system.forces).into_iter();
+    let jumps = of_forces.filter(|(e, _)| {
+        matches!(
+            g.node(*e),
+            Node::Apply {
+                function: Function::Sign,
+                ..
+            }
+        )
+    });
+    let all = corners(g, &differentiated).into_iter().chain(jumps);
+    all.map(|(_, inside)| inside).collect()
 }
 
 /// The sum of the squares of the minors of the velocities by the quasi-velocities; none where it is a number, or where these are velocities themselves.
@@ -628,6 +662,26 @@ fn found_of(chain: &Chain<'_, '_>, equations: &Equations<'_>, branch: Branch) ->
             .collect(),
         free: branch.free,
         values,
+    }
+}
+
+/// Single motions whose values are enclosed by the same small intervals are one: different branches of a root or an absolute value meet there.
+fn distinct(found: &mut Vec<Found>) {
+    let is_same = |a: &Found, b: &Found| {
+        let mut pairs = a.values.iter().zip(&b.values);
+        pairs.all(|pair| match pair {
+            (Value::Number { ball: a, .. }, Value::Number { ball: b, .. }) => a.overlaps(b),
+            _ => false,
+        })
+    };
+    let mut at = 1;
+    while at < found.len() {
+        let is_single = found[at].dimension() == 0 && !found[at].values.is_empty();
+        if is_single && found[..at].iter().any(|own| is_same(own, &found[at])) {
+            found.remove(at);
+        } else {
+            at += 1;
+        }
     }
 }
 

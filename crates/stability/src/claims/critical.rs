@@ -103,6 +103,7 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
             Change::None => {}
         }
     }
+    listed.extend(over.across_gaps());
     let mut said = match listed.as_slice() {
         [] if over.admitted.functions().is_empty() => {
             format!("the spectral stability of {name} is the same for all {parameter}")
@@ -203,6 +204,51 @@ impl Over<'_, '_> {
                 word(beside)
             )),
         }
+    }
+
+    /// Where values are left out, and the stability is another one beyond them.
+    fn across_gaps(&self) -> Vec<String> {
+        let g = self.about.graph();
+        let boundaries = self.ranges.boundaries.iter().map(|own| &own.root);
+        let mut cuts: Vec<&Root> = boundaries.chain(&self.ends).collect();
+        cuts.sort_by(|a, b| a.low.cmp(&b.low));
+        let regions = &self.ranges.regions;
+        let (Some(first), Some(last)) = (regions.first(), regions.last()) else {
+            return Vec::new();
+        };
+        let lows = std::iter::once(&first.low).chain(cuts.iter().map(|own| &own.high));
+        let highs = cuts.iter().map(|own| &own.low).chain([&last.high]);
+        let mut found = Vec::new();
+        // What is the case below, and where it ends.
+        let mut below: Option<(Place, usize)> = None;
+        for (at, (low, high)) in lows.zip(highs).enumerate().filter(|(_, (a, b))| a < b) {
+            let sample = (low + high) / RBig::from(2);
+            let region = regions.iter().find(|r| r.low <= sample && sample <= r.high);
+            let Some(region) = region.filter(|_| self.is_admitted(sample.clone())) else {
+                continue;
+            };
+            let place = self.about.question.place(region.is_left);
+            if let Some((before, end)) = below.filter(|own| own.0 != place) {
+                let one = cuts.get(end).filter(|_| end + 1 == at);
+                let contains = |root: &&&Root| {
+                    let found = self.admitted.contains_root(g, root, &self.functions);
+                    found != Some(false)
+                };
+                // What happens at a value that is admitted was said of it.
+                if one.filter(contains).is_none() {
+                    let name = g.symbol_text(self.symbol);
+                    let from = cuts.get(end).map(|own| own.place_of(&name));
+                    found.push(format!(
+                        "{}, beyond which it is {}, {} before: between them values are left out",
+                        from.unwrap_or_default(),
+                        word(place),
+                        word(before)
+                    ));
+                }
+            }
+            below = Some((place, at));
+        }
+        found
     }
 
     /// Whether values next to the upper end of an interval are admitted.

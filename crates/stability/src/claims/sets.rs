@@ -74,7 +74,13 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
     match found {
         Ok(Ok(set)) => {
             let g = &system.graph;
-            Verdict::Proved(Proof::exact(on(g, &set), listed(g, &set, sought)))
+            let said = listed(g, &set, sought);
+            // Whether a family has real members is a part of which there are.
+            if set.found.iter().all(|own| own.is_real) {
+                Verdict::Proved(Proof::exact(on(g, &set), said))
+            } else {
+                Verdict::undecided(said)
+            }
         }
         Ok(Err(SteadySetError::System(problem))) => refused(*problem),
         Ok(Err(problem)) => Verdict::undecided(problem.to_string()),
@@ -105,8 +111,8 @@ fn listed(g: &Graph, set: &SteadySet, sought: Sought) -> String {
     let without_real = set.found.iter().filter(|own| !own.is_real).count();
     let open = match without_real {
         0 => String::new(),
-        1 => "; of one family no real member was found at the places tried".into(),
-        count => format!("; of {count} families no real member was found at the places tried"),
+        1 => "; whether one more family has real members was not decided".into(),
+        count => format!("; whether {count} more families have real members was not decided"),
     };
     let others = match set.found.len() - regular.len() - without_real {
         0 => String::new(),
@@ -115,7 +121,7 @@ fn listed(g: &Graph, set: &SteadySet, sought: Sought) -> String {
     };
     let others = format!("{others}{open}");
     if regular.is_empty() && without_real > 0 {
-        return format!("no {one} was found{others}");
+        return format!("no {one} is known{others}");
     }
     if regular.is_empty() {
         return format!("there is no {one}{others}");

@@ -62,7 +62,7 @@ impl Claim for Stated {
 /// For which values of the parameters.
 fn on(question: &Question) -> &'static str {
     match question.over {
-        Some(_) => "for all values of the parameter of the motion, the others as stated",
+        Some(_) => "for all values of the parameter of the motion for which it and the equations are defined, the others as stated",
         None => "for the values of the parameters that are stated",
     }
 }

@@ -369,3 +369,49 @@ over = "a"
     assert_eq!(case.said("stability.asymptotic", "s"), "a > 1");
     assert_eq!(case.said("stability.nonlinear", "s"), "a > 1");
 }
+
+/// x'' = −a x − x' is assumed for a² ≥ 1 alone: between −1 and 1, which are left out, its stability becomes another.
+#[test]
+fn what_changes_across_values_that_are_left_out_is_told() {
+    let case = Case::new(
+        r#"
+assumptions = ["a^2 >= 1"]
+coordinates = ["x"]
+parameters = { a = 2 }
+[lagrangian]
+L = "1/2 x'^2 - 1/2 a x^2"
+[forces]
+x = "-x'"
+[steady.s]
+x = 0
+"x'" = 0
+over = "a"
+"#,
+    );
+    let found = case.verdict("stability.critical", "a");
+    let said = found.detail();
+    assert!(
+        said.contains(
+            "changes at a = -1, beyond which it is asymptotically stable, unstable before"
+        ),
+        "{said}"
+    );
+}
+
+/// Several finite constraints tie the others by a coordinate on which nothing depends: on both spheres x = 1/2, and y² = 3/4 where z = 0.
+#[test]
+fn constraints_that_share_an_ignorable_coordinate_are_kept() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y", "z"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2 + z'^2) - y"
+[constraints]
+one = "x^2 + y^2 + z^2 = 1"
+other = "(x - 1)^2 + y^2 + z^2 = 1"
+"#,
+    );
+    let found = case.verdict_of_all("equilibrium.states");
+    let said = found.detail();
+    assert!(said.contains("2 states of rest: x = 1/2"), "{said}");
+}

@@ -74,9 +74,26 @@ impl<'f> Comparison<'f> {
             let jets = space.jets_in(&[own.e]).into_iter();
             jets.into_iter().any(|jet| signed.contains(&jet.component))
         };
-        !bare.iter().any(speaks)
-            || (bare.iter().all(|own| self.is_zero_at_rest(own.e))
+        (self.assumes_values_alone() && !bare.iter().any(speaks))
+            || (bare.iter().all(|own| is_linear(space, own.e))
+                && bare.iter().all(|own| self.is_zero_at_rest(own.e))
                 && self.assumes_strictly_at_rest())
+    }
+
+    /// Whether each thing that is assumed of fields, and each sign of a branch, speaks of the value of one component: then a jet inside of what is
+    /// assumed is that of a function that stays there.
+    fn assumes_values_alone(&self) -> bool {
+        let space = &*self.functional.space;
+        let assumed = space.assumptions();
+        let sides = assumed.list().iter().map(|own| vec![own.left, own.right]);
+        let signs = self.nonnegative.iter().map(|&e| vec![e]);
+        let mut all = sides.chain(signs);
+        all.all(|es| {
+            let jets = space.jets_in(&es);
+            jets.len() <= 1
+                && jets.iter().all(|jet| jet.by.is_empty())
+                && (jets.is_empty() || !space.is_of_place(&es))
+        })
     }
 
     fn at_rest(&self, e: Expr) -> Expr {
@@ -174,15 +191,39 @@ impl<'f> Comparison<'f> {
             is_inside,
         };
         let inside: Vec<Bound> = inside.into_iter().map(|e| bound(e, true)).collect();
-        // A parameter is the same number everywhere, so also in what is looked at.
-        let looked_at: BTreeSet<Datum> = es.iter().flat_map(|&e| self.data_in(e)).collect();
         let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
+        let space = &*functional.space;
+        let conditions: Vec<(bool, Expr)> = functional
+            .pieces
+            .iter()
+            .filter_map(|piece| Some((is_elsewhere(&piece), self.on(piece, system)?)))
+            .flat_map(|(is_elsewhere, here)| {
+                here.beyond(solved)
+                    .into_iter()
+                    .map(move |e| (is_elsewhere, e))
+            })
+            .collect();
+        // What restricts parameters somewhere restricts them everywhere.
+        let restricts = |e: &Expr| space.jets_in(&[*e]).is_empty();
+        let all = conditions
+            .iter()
+            .map(|own| own.1)
+            .chain(solved.beyond(&Solved::new(space)));
+        if all.into_iter().any(|e| restricts(&e)) {
+            return false;
+        }
+        // A parameter is the same number everywhere, so also in what is looked at, and in the conditions that hold there.
+        let here = conditions.iter().filter(|own| !own.0).map(|own| own.1);
+        let looked_at: BTreeSet<Datum> = es
+            .iter()
+            .copied()
+            .chain(here)
+            .flat_map(|e| self.data_in(e))
+            .collect();
         let is_continued = || {
-            let pieces = functional.pieces.iter().filter(is_elsewhere);
-            let on_pieces = pieces.filter_map(|piece| self.on(piece, system));
-            let on_pieces = on_pieces.flat_map(|on| on.beyond(solved));
+            let elsewhere = conditions.iter().filter(|own| own.0);
             let mut all = inside.clone();
-            all.extend(on_pieces.map(|e| bound(e, false)));
+            all.extend(elsewhere.map(|own| bound(own.1, false)));
             let left = self.without_data(all, &looked_at);
             self.signed().is_empty()
                 && self.is_regular_everywhere(solved)
@@ -197,6 +238,7 @@ impl<'f> Comparison<'f> {
             let mut pieces = functional.pieces.iter();
             (hold(&written) || (self.is_regular_everywhere(solved) && hold(&inside)))
                 && self.keeps_signs(system, &looked_at)
+                && !products_meet(space, &written, &conditions)
                 && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
         };
         let found = is_local() || is_continued();
@@ -329,4 +371,28 @@ pub(super) fn jet_factors(space: &Space, e: Expr) -> Vec<Expr> {
     } else {
         found
     }
+}
+
+/// Whether an equation is linear in the jets.
+fn is_linear(space: &Space, e: Expr) -> bool {
+    let e = space.explicit(e);
+    let jets = space.jets_in(&[e]);
+    jets.iter()
+        .all(|jet| space.jets_in(&[space.partial(e, jet)]).is_empty())
+}
+
+/// Whether a condition on the boundary speaks of a field of which the body says by a product what it may be: fields are continuous, so that the
+/// factor that vanishes on the boundary may vanish everywhere.
+fn products_meet(space: &Space, inside: &[Bound], conditions: &[(bool, Expr)]) -> bool {
+    let products = inside
+        .iter()
+        .filter(|own| jet_factors(space, own.e).len() > 1);
+    let of = |e: Expr| {
+        let jets = space.jets_in(&[space.explicit(e)]).into_iter();
+        jets.map(|jet| jet.component).collect::<BTreeSet<usize>>()
+    };
+    let bound: BTreeSet<usize> = products.flat_map(|own| of(own.e)).collect();
+    conditions
+        .iter()
+        .any(|own| of(own.1).iter().any(|component| bound.contains(component)))
 }

@@ -12,16 +12,20 @@ use crate::polynomial::Polynomial;
 use crate::read::on_side;
 use crate::space::Jet;
 use crate::variation::{variation, Variation};
+use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::verdict::{Counterexample, PointValue};
-use chetaev_symbolic::zero::assumptions::is_contradicted;
+use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, SignSet};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Rational, Symbol, Verdict};
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The degrees of the polynomials that are tried.
 const DEGREES: [u32; 4] = [1, 3, 6, 9];
 /// More coefficients are not looked for.
 const MOST: usize = 120;
+/// Bits with which what is assumed of numbers is checked.
+const BITS: usize = 128;
 /// So many choices of values for parameters are tried.
 const CHOICES: i64 = 2;
 
@@ -154,7 +158,19 @@ fn values(functional: &Functional, choice: i64) -> Option<Vec<(Symbol, Rational)
     let mut all = assumed.list().iter();
     let is_violated = all.any(|own| {
         let difference = put(g.sub(own.left, own.right));
-        is_contradicted(own.relation, known_sign(g, difference, &Default::default()))
+        // Of the place nothing is chosen.
+        if space.is_of_place(&[difference]) {
+            return is_contradicted(own.relation, known_sign(g, difference, &Default::default()));
+        }
+        let enclosed = g.enclose(&[difference], &Precision::new(BITS), &|_| None);
+        let sign = enclosed.ok().and_then(|found| found.first()?.sign());
+        let sign = sign.map(|sign| match sign {
+            Ordering::Less => SignSet::NEGATIVE,
+            Ordering::Equal => SignSet::ZERO,
+            Ordering::Greater => SignSet::POSITIVE,
+        });
+        let sign = sign.unwrap_or_else(|| known_sign(g, difference, &Default::default()));
+        !is_implied(own.relation, sign)
     });
     (!is_violated).then_some(values)
 }
