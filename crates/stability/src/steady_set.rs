@@ -9,7 +9,7 @@ use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, is_singular_at, other_charts, union};
 use crate::problem::LinearizationError;
 use crate::real_values::corners;
-use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
+use crate::reduction::{without, ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, closed};
 pub use crate::steady_motions::{Found, SteadySet};
 use crate::steady_value::{fraction, Generators, Unknown};
@@ -125,13 +125,13 @@ fn in_chart(
     let equations = Equations::new(system, terms, selection, asked)?;
     let symbols: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
     let mut options = Options::proof(Budget::PROOF);
-    options.base_angles = angles(g, &equations.vanishing, &symbols);
     let all = [
         equations.vanishing.clone(),
         equations.slopes.clone(),
         equations.regular.clone(),
     ]
     .concat();
+    options.base_angles = angles(g, &all, &symbols);
     let (field, forms) = normal_forms(g, &all, &options)?;
     let vanishing = forms.iter().take(equations.vanishing.len());
     let numerators: Vec<Polynomial> = vanishing.map(|f| f.numerator().clone()).collect();
@@ -254,7 +254,7 @@ impl<'a> Equations<'a> {
         let slopes: Vec<Expr> = own.characteristics.basis.concat();
         let slopes = at_point(g, &slopes, &[&controls, &at_rest, values]);
         let regular = implicit.clone().map(|(e, symbol)| g.diff(*e, *symbol));
-        let regular = regular.chain(independence(g, &own));
+        let regular = regular.chain(independence(system, &own));
         let regular: Vec<Expr> = regular.chain(corners_of(system)).collect();
         let regular = at_point(g, &regular, &[&controls, &at_rest, values]);
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
@@ -453,7 +453,8 @@ fn corners_of(system: &System) -> Vec<Expr> {
 }
 
 /// The sum of the squares of the minors of the velocities by the quasi-velocities; none where it is a number, or where these are velocities themselves.
-fn independence(g: &Graph, own: &ClosedSystem) -> Option<Expr> {
+fn independence(system: &System, own: &ClosedSystem) -> Option<Expr> {
+    let g = &system.graph;
     let basis = &own.characteristics.basis;
     let k = own.characteristics.k();
     let rows = choices(basis.len(), k);
@@ -470,7 +471,14 @@ fn independence(g: &Graph, own: &ClosedSystem) -> Option<Expr> {
         return None;
     }
     let squares = minors.into_iter().map(|e| g.powi(e, 2));
-    let sum = closed(g, g.add(&squares.collect::<Vec<Expr>>()));
+    let mut sum = closed(g, g.add(&squares.collect::<Vec<Expr>>()));
+    // Coordinates on which nothing depends may be where it does not vanish.
+    for j in own.ignorable(system) {
+        let coordinate = &system.coordinates[j];
+        if g.contains_any(sum, &[coordinate.q_symbol]) {
+            sum = *without(g, &[sum], coordinate.q)?.first()?;
+        }
+    }
     g.as_number(sum).is_none().then_some(sum)
 }
 

@@ -294,7 +294,7 @@ fn found_text(system: &System, found: &Result<SteadySet, SteadySetError>) -> Str
         Ok(set) if set.found.is_empty() => "; there is no steady motion".into(),
         Ok(set) => format!(
             ", or by its number one of those that were found:\n\n{}",
-            crate::steady::lines(&system.graph, set)
+            crate::steady::words::lines(&system.graph, set)
         ),
         Err(_) => String::new(),
     }

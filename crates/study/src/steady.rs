@@ -5,6 +5,7 @@
 )]
 
 mod search;
+pub(crate) mod words;
 
 pub use search::{Near, Search};
 
@@ -14,7 +15,6 @@ use crate::start;
 use chetaev_mechanics::System;
 use chetaev_model::Model;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
-use chetaev_symbolic::Graph;
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -96,7 +96,7 @@ impl Steady {
             let _ = writeln!(text, "  {name} = {}", g.text(*definition));
         }
         text.push('\n');
-        text.extend(set.found.iter().map(|own| paragraph(g, set, own)));
+        text.extend(set.found.iter().map(|own| words::paragraph(g, set, own)));
         text.push('\n');
         let _ = writeln!(text, "{}", self.completeness(set));
         for sentence in set.left_out(g) {
@@ -167,29 +167,5 @@ impl Steady {
             "excluded": texts(&set.excluded),
             "motions": set.found.iter().map(motion).collect::<Vec<_>>(),
         })
-    }
-}
-
-/// One paragraph for each motion that can be meant: not where the mass matrix is singular or what is assumed does not hold, if there are others.
-pub(crate) fn lines(g: &Graph, set: &SteadySet) -> String {
-    let is_meant = |own: &&Found| own.is_assumed && !own.is_singular;
-    let meant: Vec<&Found> = set.found.iter().filter(is_meant).collect();
-    let all = || set.found.iter().collect();
-    let listed = if meant.is_empty() { all() } else { meant };
-    listed.iter().map(|own| paragraph(g, set, own)).collect()
-}
-
-fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
-    let parts = set.parts(g, own);
-    match own.dimension() {
-        0 => format!("  {}  {}\n", own.name, parts.join(", ")),
-        count => {
-            let s = if count == 1 { "" } else { "s" };
-            format!(
-                "  {}  a family with {count} parameter{s}\n       {}\n",
-                own.name,
-                parts.join("\n       ")
-            )
-        }
     }
 }

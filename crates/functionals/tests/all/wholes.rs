@@ -498,3 +498,185 @@ z = "a = 0"
     );
     assert!(!detail.contains("never so"), "{word}: {detail}");
 }
+
+/// P = 3 at the end x = 1, and P is one number, so that (P − 3) u = 0 follows.
+#[test]
+fn a_parameter_that_a_condition_fixes_is_fixed_everywhere() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "A1"
+density = "1/2 u,x^2 - f u"
+yields = ["a", "n0", "n1", "b", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+m = { kind = "scalar", on = "x = 1" }
+[boundary]
+"x = 0" = "0"
+"x = 1" = "m (P - 3)"
+[equations]
+a = "u,xx + f = 0"
+n0 = { equation = "u,x = 0", on = "x = 0" }
+n1 = { equation = "u,x = 0", on = "x = 1" }
+b = { equation = "P = 3", on = "x = 1" }
+z = "(P - 3) u = 0"
+[data]
+f="scalar"
+[parameters]
+P = { description = "p" }
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// u'' = 0 with u'(0) = P and u'(1) = −P leaves P = 0.
+#[test]
+fn a_parameter_in_conditions_at_both_ends_is_one_number() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "N1"
+density = "1/2 u,x^2"
+yields = ["a", "n0", "n1", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "P u"
+"x = 1" = "P u"
+[equations]
+a = "u,xx = 0"
+n0 = { equation = "u,x = P", on = "x = 0" }
+n1 = { equation = "u,x = -P", on = "x = 1" }
+z = { equation = "u,x = 0", on = "x = 0" }
+[parameters]
+P = { description = "p" }
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// u' <= 1 and u(0) = 0 leave u(1) = 0 of u (u − 3) = 0.
+#[test]
+fn what_is_assumed_excludes_a_branch_of_a_condition() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "E1"
+density = "1/2 u,x^2 - f u"
+yields = ["a", "u0", "n1", "c1", "k0", "z"]
+assumptions = ["u,x <= 1"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+m = { kind = "scalar", on = "x = 1" }
+k = { kind = "scalar", on = "x = 0" }
+[boundary]
+"x = 0" = "k u"
+"x = 1" = "m u (u - 3)"
+[equations]
+a = "u,xx + f = 0"
+u0 = { equation = "u = 0", on = "x = 0" }
+n1 = { equation = "u,x + m (2 u - 3) = 0", on = "x = 1" }
+c1 = { equation = "u (u - 3) = 0", on = "x = 1" }
+k0 = { equation = "k = u,x", on = "x = 0" }
+z = { equation = "u = 0", on = "x = 1" }
+[data]
+f="scalar"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// g' >= 1 and 0 <= g <= 1 on the unit interval leave g = x.
+#[test]
+fn what_is_assumed_of_a_slope_and_of_values_binds() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "R2"
+density = "1/2 (u - g)^2"
+yields = ["a", "z"]
+assumptions = ["g,x >= 1", "g >= 0", "g <= 1"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+[equations]
+a = "u = g"
+z = "u = x"
+[data]
+g="scalar"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// w (w − 1) (2 w − 1) = 0 with w(0) = 0: a continuous field stays on its branch.
+#[test]
+fn a_branch_of_a_product_goes_on() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "P2"
+density = "1/2 u,x^2 - f u + 1/2 w^2 (w - 1)^2 "
+yields = ["a", "n0", "n1", "w", "w0", "m", "z"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+w = "scalar"
+m = { kind = "scalar", on = "x = 0" }
+[boundary]
+"x = 0" = "m w"
+"x = 1" = "0"
+[equations]
+a = "u,xx + f = 0"
+n0 = { equation = "u,x = 0", on = "x = 0" }
+n1 = { equation = "u,x = 0", on = "x = 1" }
+w = "w (w-1) (2 w - 1) = 0"
+w0 = { equation = "w = 0", on = "x = 0" }
+m = { equation = "m = 0", on = "x = 0" }
+z = "w = 0"
+[data]
+f="scalar"
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}
+
+/// exp(P) < 1 says P < 0, so that (P + |P|) u = 0 is true.
+#[test]
+fn numbers_keep_to_what_is_assumed() {
+    let (word, detail) = said(
+        r#"kind = "functional"
+name = "J2"
+density = "1/2 u,x^2"
+yields = ["a", "n0", "n1", "z"]
+assumptions = ["exp(P) < 1"]
+[domain]
+coordinates = ["x"]
+intervals = { x = [0, 1] }
+[fields]
+u = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 1" = "0"
+[equations]
+a = "u,xx = 0"
+n0 = { equation = "u,x = 0", on = "x = 0" }
+n1 = { equation = "u,x = 0", on = "x = 1" }
+z = "(P+abs(P)) u = 0"
+[parameters]
+P = { description = "p" }
+"#,
+    );
+    assert!(word != "refuted", "{word}: {detail}");
+}

@@ -74,26 +74,28 @@ impl<'f> Comparison<'f> {
             let jets = space.jets_in(&[own.e]).into_iter();
             jets.into_iter().any(|jet| signed.contains(&jet.component))
         };
-        (self.assumes_values_alone() && !bare.iter().any(speaks))
+        (self.assumes_jets_alone() && !bare.iter().any(speaks))
             || (bare.iter().all(|own| is_linear(space, own.e))
                 && bare.iter().all(|own| self.is_zero_at_rest(own.e))
                 && self.assumes_strictly_at_rest())
     }
 
-    /// Whether each thing that is assumed of fields, and each sign of a branch, speaks of the value of one component: then a jet inside of what is
-    /// assumed is that of a function that stays there.
-    fn assumes_values_alone(&self) -> bool {
+    /// Whether each thing that is assumed of fields, and each sign of a branch, speaks of one jet, and nothing else of the same component: then a
+    /// jet inside of what is assumed is that of a function that stays there.
+    fn assumes_jets_alone(&self) -> bool {
         let space = &*self.functional.space;
         let assumed = space.assumptions();
         let sides = assumed.list().iter().map(|own| vec![own.left, own.right]);
         let signs = self.nonnegative.iter().map(|&e| vec![e]);
-        let mut all = sides.chain(signs);
-        all.all(|es| {
+        let mut known: BTreeSet<Jet> = BTreeSet::new();
+        let are_single = sides.chain(signs).all(|es| {
             let jets = space.jets_in(&es);
-            jets.len() <= 1
-                && jets.iter().all(|jet| jet.by.is_empty())
-                && (jets.is_empty() || !space.is_of_place(&es))
-        })
+            let is_single = jets.len() <= 1 && (jets.is_empty() || !space.is_of_place(&es));
+            known.extend(jets);
+            is_single
+        });
+        let components: BTreeSet<usize> = known.iter().map(|jet| jet.component).collect();
+        are_single && components.len() == known.len()
     }
 
     fn at_rest(&self, e: Expr) -> Expr {

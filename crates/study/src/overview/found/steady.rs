@@ -11,6 +11,9 @@ const ASKED: [(&str, &str); 3] = [
     ("stability.spectral", "spectrally stable"),
 ];
 
+/// Characters of a sentence on one line.
+const ONE_LINE: usize = 80;
+
 /// All steady motions; where these were not found, all states of rest.
 pub(super) fn sets(study: &Study) -> Option<Found> {
     let proved = |claim: &str| {
@@ -18,7 +21,13 @@ pub(super) fn sets(study: &Study) -> Option<Found> {
         matches!(decided.finding.verdict, Verdict::Proved(_)).then_some(decided)
     };
     let decided = proved("steady.motions").or_else(|| proved("equilibrium.states"))?;
-    let sentence = lead(study, decided.finding.verdict.detail());
+    let all = lead(study, decided.finding.verdict.detail());
+    let sentence = match all.split_once(": ") {
+        Some((counts, _)) if all.chars().count() > ONE_LINE => {
+            format!("{counts}: `chetaev steady` writes them")
+        }
+        _ => all,
+    };
     Some(Found::new("steady motions", sentence, &[decided]))
 }
 
