@@ -23,12 +23,16 @@ pub(super) fn sets(study: &Study) -> Option<Found> {
     let decided = proved("steady.motions").or_else(|| proved("equilibrium.states"))?;
     let all = lead(study, decided.finding.verdict.detail());
     let sentence = match all.split_once(": ") {
+        // How many families there are says little without what they are.
         Some((counts, _)) if all.chars().count() > ONE_LINE => {
-            format!("{counts}: `chetaev steady` writes them")
+            let has_single = ["steady motion", "of rest"]
+                .iter()
+                .any(|one| counts.contains(one));
+            has_single.then(|| format!("{counts}: `chetaev steady` writes them"))?
         }
         _ => all,
     };
-    Some(Found::new("steady motions", sentence, &[decided]))
+    Some(Found::new("steady", sentence, &[decided]))
 }
 
 /// Each stated steady motion with what is known of its stability.
