@@ -14,12 +14,16 @@ const ASKED: [(&str, &str); 3] = [
 /// Characters of a sentence on one line.
 const ONE_LINE: usize = 80;
 
-/// All steady motions; where these were not found, all states of rest.
+/// All steady motions of a model that names none; where these were not found, all states of rest.
 pub(super) fn sets(study: &Study) -> Option<Found> {
     let proved = |claim: &str| {
         let decided = verdict(study, claim, None)?;
         matches!(decided.finding.verdict, Verdict::Proved(_)).then_some(decided)
     };
+    // Of a motion that the model names its stability is told.
+    if !study.system.steady.is_empty() {
+        return None;
+    }
     let decided = proved("steady.motions").or_else(|| proved("equilibrium.states"))?;
     let all = lead(study, decided.finding.verdict.detail());
     let sentence = match all.split_once(": ") {
