@@ -14,7 +14,7 @@ const ASKED: [(&str, &str); 3] = [
 /// Characters of a sentence on one line.
 const ONE_LINE: usize = 80;
 
-/// All steady motions of a model that names none; where these were not found, all states of rest.
+/// How many steady motions there are that stand alone, of a model that names none.
 pub(super) fn sets(study: &Study) -> Option<Found> {
     let proved = |claim: &str| {
         let decided = verdict(study, claim, None)?;
@@ -24,17 +24,15 @@ pub(super) fn sets(study: &Study) -> Option<Found> {
     if !study.system.steady.is_empty() {
         return None;
     }
-    let decided = proved("steady.motions").or_else(|| proved("equilibrium.states"))?;
+    let decided = proved("steady.motions")?;
     let all = lead(study, decided.finding.verdict.detail());
-    let sentence = match all.split_once(": ") {
-        // How many families there are says little without what they are.
-        Some((counts, _)) if all.chars().count() > ONE_LINE => {
-            let has_single = ["steady motion", "of rest"]
-                .iter()
-                .any(|one| counts.contains(one));
-            has_single.then(|| format!("{counts}: `chetaev steady` writes them"))?
-        }
-        _ => all,
+    // Families say little in a line; `chetaev steady` writes them.
+    let (counts, _) = all.split_once(": ")?;
+    counts.contains("steady motion").then_some(())?;
+    let sentence = if all.chars().count() > ONE_LINE {
+        format!("{counts}: `chetaev steady` writes them")
+    } else {
+        all
     };
     Some(Found::new("steady", sentence, &[decided]))
 }
