@@ -24,7 +24,7 @@ pub struct Defect {
 /// `None` where a rank was not decided.
 ///
 /// Without a value the answer holds for general values of the parameter. An eigenvalue that is semisimple there is so wherever its
-/// multiplicity is the same, since kernels can only grow; one that is not may be so at zeros of [`where_kernels_grow`].
+/// multiplicity is the same, since kernels can only grow; one that is not may be so at zeros of a minor of the matrix.
 pub fn defects(g: &Graph, question: &Question, at: Option<&RBig>) -> Option<Vec<Defect>> {
     let ranks = ranks(g, question, at)?;
     let mut found = Vec::new();
