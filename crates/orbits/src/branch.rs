@@ -279,7 +279,7 @@ pub fn follow(
     })
 }
 
-/// A test below this vanishes to rounding: the sum or product of eigenvalues in parts of the largest.
+/// A test that falls to this part of what it was vanishes to rounding.
 const SPECIAL: f64 = 1e-9;
 /// A step that would end where something happens is made so much shorter.
 const BESIDE: f64 = 0.83;
@@ -444,7 +444,7 @@ impl Walk<'_> {
                 continue;
             };
             // Where something happens at a point itself no sign changes on either side of it.
-            let beside = if self.is_special(&next) {
+            let beside = if self.is_special(&at, &next) {
                 self.step(&at, BESIDE * length)
             } else {
                 None
@@ -479,10 +479,12 @@ impl Walk<'_> {
         Ok(end)
     }
 
-    /// Whether a test vanishes at a point, to rounding.
-    fn is_special(&self, at: &Stand) -> bool {
-        let tests = self.equations.tests(&at.point.spectrum.values);
-        tests.iter().any(|value| value.abs() < SPECIAL)
+    /// Whether a test vanishes at a point, to rounding of what it is at the one before.
+    fn is_special(&self, before: &Stand, at: &Stand) -> bool {
+        let [before, here] =
+            [before, at].map(|own| self.equations.tests(&own.point.spectrum.values));
+        let mut both = before.iter().zip(&here);
+        both.any(|(a, b)| b.abs() < SPECIAL * a.abs())
     }
 
     /// The next point at this length, where the direction does not change much.

@@ -168,7 +168,6 @@ fn in_chart(
             found.push(Found { is_assumed, ..own });
         }
     }
-    sort(&mut found);
     distinct(&mut found);
     sort(&mut found);
     Ok(SteadySet {

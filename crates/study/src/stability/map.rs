@@ -332,9 +332,9 @@ impl Grid<'_> {
     fn curves(&self, kinds: &[Kind]) -> Vec<Curve> {
         let side = self.side;
         let kind = |column: usize, row: usize| kinds[row * (side + 1) + column];
-        let ends = |&(c, r, up): &Edge| match up {
-            true => [kind(c, r), kind(c, r + 1)],
-            false => [kind(c, r), kind(c + 1, r)],
+        let ends = |&(c, r, up): &Edge| {
+            let other = if up { kind(c, r + 1) } else { kind(c + 1, r) };
+            [kind(c, r), other]
         };
         let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
         for row in 0..side {
@@ -465,10 +465,12 @@ impl StabilityMap {
     /// The map in characters, with the boundaries.
     pub fn text(&self) -> String {
         let [x, y] = &self.ranges;
-        let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid{}\n\n", self.name, self.motion, match self.kinds.contains(&Kind::NoMotion) {
-            true => "; blank: there is no such motion",
-            false => "",
-        });
+        let blank = if self.kinds.contains(&Kind::NoMotion) {
+            "; blank: there is no such motion"
+        } else {
+            ""
+        };
+        let mut text = format!("{}, steady motion `{}`: `.` no eigenvalue right of the axis, `#` unstable, by eigenvalues on a grid{blank}\n\n", self.name, self.motion);
         for line in (0..=HEIGHT).rev() {
             let row = line * self.side / HEIGHT;
             let head = match line {

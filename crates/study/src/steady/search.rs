@@ -106,11 +106,8 @@ type Start = (String, Vec<(Symbol, f64)>);
 /// The motions that the model names, its initial state, and rest in its initial positions; those of which numbers are known.
 fn starts(model: &Model, system: &System, prepared: &Prepared) -> Result<Vec<Start>, FollowError> {
     let values = system.parameter_values();
-    let none = || {
-        Err(SteadySetError::NotPolynomial {
-            what: String::new(),
-        })
-    };
+    // Named motions are not sought.
+    let none = || Err(SteadySetError::Undefined);
     let mut all = Vec::new();
     let names = system.steady.iter().map(|own| own.name.as_str());
     for name in names.chain(["rest"]) {
@@ -195,14 +192,11 @@ impl Search {
                 ),
             };
         }
-        let _ = writeln!(
-            text,
-            "{}",
-            match self.found.is_empty() {
-                true => "From none of the starts a steady motion was found, and there may be some.",
-                false => "\nThere may be others: state a guess as [steady.NAME], with values { guess = … }, and `chetaev follow` follows it over a parameter.",
-            }
-        );
+        text.push_str(if self.found.is_empty() {
+            "From none of the starts a steady motion was found, and there may be some.\n"
+        } else {
+            "\nThere may be others: state a guess as [steady.NAME], with values { guess = … }, and `chetaev follow` follows it over a parameter.\n"
+        });
         if !self.ignorable.is_empty() {
             let _ = writeln!(text, "Nothing depends on {}.", self.ignorable.join(", "));
         }

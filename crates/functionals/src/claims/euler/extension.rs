@@ -71,8 +71,8 @@ impl<'f> Comparison<'f> {
         });
         let bare = self.without_data(bound.collect(), looked_at);
         let speaks = |own: &Bound| {
-            let jets = space.jets_in(&[own.e]).into_iter();
-            jets.into_iter().any(|jet| signed.contains(&jet.component))
+            let jets = space.jets_in(&[own.e]);
+            jets.iter().any(|jet| signed.contains(&jet.component))
         };
         (self.assumes_jets_alone() && !bare.iter().any(speaks))
             || (bare.iter().all(|own| is_linear(space, own.e))
@@ -146,9 +146,7 @@ impl<'f> Comparison<'f> {
     fn have_solutions(&self, equations: &[Bound]) -> bool {
         let space = &*self.functional.space;
         let is_line = space.coordinates.len() == 1;
-        let factors = equations
-            .iter()
-            .flat_map(|own| jet_factors(&self.functional.space, own.e));
+        let factors = equations.iter().flat_map(|own| jet_factors(space, own.e));
         factors.into_iter().all(|e| {
             space.jets_in(&[e]).iter().all(|jet| {
                 let slope = [space.partial(e, jet)];
@@ -211,7 +209,8 @@ impl<'f> Comparison<'f> {
             .iter()
             .map(|own| own.1)
             .chain(solved.beyond(&Solved::new(space)));
-        if all.into_iter().any(|e| restricts(&e)) {
+        let mut all = all;
+        if all.any(|e| restricts(&e)) {
             return false;
         }
         // A parameter is the same number everywhere, so also in what is looked at, and in the conditions that hold there.
