@@ -1,8 +1,9 @@
 //! What solved equations say besides: that nothing satisfies them, what they ask of data, which cases there are, and what they leave free.
 
+use super::solver::base;
 use super::Solved;
 use crate::functional::Side;
-use crate::space::Jet;
+use crate::space::{Jet, Space};
 use chetaev_symbolic::factors::factors_within;
 use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions};
@@ -21,6 +22,19 @@ const BUDGET: Budget = Budget {
     bits: 2_000,
     work: 100_000,
 };
+
+/// The factors of an expression, without numbers and powers: it vanishes where one of them does. As it is where they take too much work.
+pub(crate) fn factors_of(space: &Space, e: Expr) -> Vec<Expr> {
+    let g = &space.graph;
+    match g.node(e) {
+        Node::Product { factors, .. } => factors.iter().map(|&f| base(g, f)).collect(),
+        _ => {
+            let symbols = g.symbols_in(&[e]);
+            let own = factors_within(g, e, &symbols, BUDGET);
+            own.map_or(vec![e], |all| all.into_iter().map(|(f, _)| f).collect())
+        }
+    }
+}
 
 impl<'s> Solved<'s> {
     /// What cannot be where all equations hold: an equation that is left although it never holds, with its label.
@@ -187,20 +201,12 @@ impl<'s> Solved<'s> {
         own
     }
 
-    /// The factors of an expression, without numbers and powers: it vanishes where one of them does.
+    /// The same of all, kept.
     pub(super) fn factors(&self, e: Expr) -> Vec<Expr> {
         if let Some(known) = self.factors.borrow().get(&e) {
             return known.clone();
         }
-        let g = &self.space.graph;
-        let found = match g.node(e) {
-            Node::Product { factors, .. } => factors.iter().map(|&f| self.base(f)).collect(),
-            _ => {
-                let symbols = g.symbols_in(&[e]);
-                let own = factors_within(g, e, &symbols, BUDGET);
-                own.map_or(vec![e], |all| all.into_iter().map(|(f, _)| f).collect())
-            }
-        };
+        let found = factors_of(self.space, e);
         self.factors.borrow_mut().insert(e, found.clone());
         found
     }

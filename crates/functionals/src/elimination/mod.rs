@@ -23,6 +23,8 @@ mod consequences;
 mod ranking;
 mod solver;
 
+pub(crate) use self::consequences::factors_of;
+
 use self::ranking::Ranking;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
@@ -444,6 +446,11 @@ impl<'s> Solved<'s> {
         });
         found.point.extend(vanishing);
         found
+    }
+
+    /// What is known not to be negative at the place that is looked at, and may be so elsewhere: the branch of a root or an absolute value.
+    pub fn nonnegative(&self) -> &[Expr] {
+        &self.nonnegative
     }
 
     /// Whether fields or data, or functions of them, occur in what was divided by.

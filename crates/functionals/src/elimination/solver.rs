@@ -6,7 +6,7 @@ use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::zero::{generic_rank, Options, Pivots, RankTest};
-use chetaev_symbolic::{rational, Expr, Node};
+use chetaev_symbolic::{rational, Expr, Graph, Node};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -97,19 +97,7 @@ impl Solved<'_> {
 
     /// What a positive power is of: both vanish together.
     pub(super) fn base(&self, e: Expr) -> Expr {
-        let g = &self.space.graph;
-        match g.node(e) {
-            Node::Power { base, exponent } => {
-                let exponent = g.as_number(*exponent);
-                let is_positive = exponent.is_some_and(|n| !rational::is_negative(n));
-                if is_positive {
-                    *base
-                } else {
-                    e
-                }
-            }
-            _ => e,
-        }
+        base(&self.space.graph, e)
     }
 
     /// The terms of a sum of which none is negative, or none positive: each vanishes where the sum does.
@@ -675,5 +663,21 @@ impl Solved<'_> {
                 }
             }
         }
+    }
+}
+
+/// What a positive power is of: both vanish together.
+pub(super) fn base(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Power { base, exponent } => {
+            let exponent = g.as_number(*exponent);
+            let is_positive = exponent.is_some_and(|n| !rational::is_negative(n));
+            if is_positive {
+                *base
+            } else {
+                e
+            }
+        }
+        _ => e,
     }
 }

@@ -35,8 +35,6 @@ pub(super) struct Comparison<'f> {
     pub(super) refutes: bool,
     /// Whether the conditions where two faces meet contradict each other.
     contradicts_at_corner: Cell<bool>,
-    /// What is known not to be negative at the place that is looked at, and may be so elsewhere: the branch of a root or an absolute value.
-    pub(super) nonnegative: Vec<Expr>,
     /// Whether jets of a system are those of solutions, as far as that was asked.
     pub(super) extended: RefCell<BTreeMap<System, bool>>,
 }
@@ -82,7 +80,6 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: true,
             contradicts_at_corner: Cell::new(false),
-            nonnegative: nonnegative.to_vec(),
             extended: RefCell::default(),
         }
     }
@@ -103,7 +100,6 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: self.refutes,
             contradicts_at_corner: Cell::new(false),
-            nonnegative: self.nonnegative.clone(),
             extended: RefCell::default(),
         }
     }

@@ -7,11 +7,10 @@
 //! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
 
 use super::comparison::{euler_groups, groups, Comparison, System};
-use crate::elimination::Solved;
+use crate::elimination::{factors_of, Solved};
 use crate::functional::{Piece, Role, Side};
 use crate::smoothness::{guards, Guard, Region};
 use crate::space::{Jet, Space};
-use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::zero::assumptions::{is_implied, Relation};
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
@@ -47,7 +46,9 @@ impl<'f> Comparison<'f> {
         let space = &*self.functional.space;
         let assumed = space.assumptions();
         let sides = assumed.list().iter().flat_map(|own| [own.left, own.right]);
-        let all: Vec<Expr> = sides.chain(self.nonnegative.iter().copied()).collect();
+        let all: Vec<Expr> = sides
+            .chain(self.derived.nonnegative().iter().copied())
+            .collect();
         let jets = space.jets_in(&all).into_iter();
         jets.map(|jet| jet.component).collect()
     }
@@ -55,16 +56,13 @@ impl<'f> Comparison<'f> {
     /// Whether fields with a jet at a place can keep to what is assumed of them, and to the signs of a branch, everywhere: either no condition
     /// on the boundary without data of its own speaks of these fields; or what is assumed holds strictly where all fields vanish, and so do the
     /// conditions, so that it holds for small fields, among which are some that refute.
-    fn keeps_signs(&self, system: System, looked_at: &BTreeSet<Datum>) -> bool {
+    fn keeps_signs(&self, conditions: &[(bool, Expr)], looked_at: &BTreeSet<Datum>) -> bool {
         let signed = self.signed();
         if signed.is_empty() {
             return true;
         }
         let space = &*self.functional.space;
-        let pieces = self.functional.pieces.iter();
-        let here = pieces.filter_map(|piece| self.on(piece, system));
-        let conditions = here.flat_map(|own| own.beyond(self.inside(system)));
-        let bound = conditions.map(|e| Bound {
+        let bound = conditions.iter().map(|&(_, e)| Bound {
             e,
             data: self.data_in(e),
             is_inside: false,
@@ -86,7 +84,7 @@ impl<'f> Comparison<'f> {
         let space = &*self.functional.space;
         let assumed = space.assumptions();
         let sides = assumed.list().iter().map(|own| vec![own.left, own.right]);
-        let signs = self.nonnegative.iter().map(|&e| vec![e]);
+        let signs = self.derived.nonnegative().iter().map(|&e| vec![e]);
         let mut known: BTreeSet<Jet> = BTreeSet::new();
         let are_single = sides.chain(signs).all(|es| {
             let jets = space.jets_in(&es);
@@ -115,7 +113,7 @@ impl<'f> Comparison<'f> {
         let g = &space.graph;
         let assumed = space.assumptions();
         let mut all = assumed.list().iter();
-        self.nonnegative.is_empty()
+        self.derived.nonnegative().is_empty()
             && all.all(|own| {
                 let difference = g.sub(own.left, own.right);
                 let is_of_fields = !space.jets_in(&[difference]).is_empty();
@@ -238,7 +236,7 @@ impl<'f> Comparison<'f> {
         let is_local = || {
             let mut pieces = functional.pieces.iter();
             (hold(&written) || (self.is_regular_everywhere(solved) && hold(&inside)))
-                && self.keeps_signs(system, &looked_at)
+                && self.keeps_signs(&conditions, &looked_at)
                 && !products_meet(space, &written, &conditions)
                 && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
         };
@@ -361,17 +359,13 @@ impl<'f> Comparison<'f> {
 
 /// The factors of an expression in which jets occur, without powers: it vanishes where one of them does.
 pub(super) fn jet_factors(space: &Space, e: Expr) -> Vec<Expr> {
-    let g = &space.graph;
     let e = space.explicit(e);
-    let symbols: Vec<Symbol> = space.symbols_in(&[e]).into_iter().collect();
-    let all = irreducible_factors(g, e, &symbols).unwrap_or_default();
-    let has_jets = |e: &Expr| !space.jets_in(&[*e]).is_empty();
-    let found: Vec<Expr> = all.into_iter().map(|(e, _)| e).filter(has_jets).collect();
+    let mut found = factors_of(space, e);
+    found.retain(|&e| !space.jets_in(&[e]).is_empty());
     if found.is_empty() {
-        vec![e]
-    } else {
-        found
+        found.push(e);
     }
+    found
 }
 
 /// Whether an equation is linear in the jets.

@@ -29,7 +29,7 @@ impl<'f> Comparison<'f> {
     ) -> bool {
         let vanish = |&e: &Expr| inside.follows(&[e]) || self.vanishes_along(e, inside, at_end);
         // A branch knows a sign at one place, and not along the way.
-        self.nonnegative.is_empty() && es.iter().all(vanish)
+        self.derived.nonnegative().is_empty() && es.iter().all(vanish)
     }
 
     /// Whether a system carries an expression along one of the variables from a face on which it vanishes.
