@@ -276,7 +276,7 @@ fn conditions_along(
 }
 
 /// Positions and velocities of a motion.
-fn place_of(system: &System, motion: &SteadyMotion) -> Vec<(Expr, Expr)> {
+pub(crate) fn place_of(system: &System, motion: &SteadyMotion) -> Vec<(Expr, Expr)> {
     let coordinates = system.coordinates.iter();
     let positions = coordinates.clone().map(|own| own.q).zip(&motion.positions);
     let velocities = coordinates.map(|own| own.v).zip(&motion.velocities);

@@ -3,6 +3,7 @@
 //! Independent velocities are coordinates of the directions that the constraints allow; where a minor of the gradients of the constraints vanishes the
 //! velocities by them have poles. Each choice is a chart, and the motions of all charts together are all motions.
 
+use crate::admissible_values::place_of;
 use crate::real_roots::sign_of;
 use crate::steady::closed;
 use crate::steady_motions::{Found, SteadySet};
@@ -68,12 +69,7 @@ pub(crate) fn union(system: &System, own: &mut SteadySet, other: &SteadySet) {
 
 /// Positions and velocities of a motion.
 fn values_along(system: &System, found: &Found) -> Option<Vec<(Expr, Expr)>> {
-    let motion = found.motion.as_ref()?;
-    let coordinates = system.coordinates.iter();
-    let positions = coordinates.clone().map(|c| c.q).zip(&motion.positions);
-    let velocities = coordinates.map(|c| c.v).zip(&motion.velocities);
-    let all = positions.chain(velocities);
-    Some(all.filter_map(|(e, value)| Some((e, (*value)?))).collect())
+    Some(place_of(system, found.motion.as_ref()?))
 }
 
 /// The same with the speeds of a set.
