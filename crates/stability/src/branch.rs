@@ -432,11 +432,10 @@ impl Chain<'_, '_> {
     fn angle_of(&self, branch: &Branch, (c, s): (Expr, Expr)) -> Expr {
         let g = self.field.graph();
         let same = |a: Expr, b: Expr| g.is_zero(closed(g, g.sub(a, b)));
-        let known = branch.free.iter().flat_map(|&(symbol, _)| {
+        let mut known = branch.free.iter().flat_map(|&(symbol, _)| {
             let further = g.add(&[symbol, g.pi()]);
             [symbol, further, g.neg(symbol), g.sub(g.pi(), symbol)]
         });
-        let mut known = known;
         known
             .find(|&angle| same(c, g.cos(angle)) && same(s, g.sin(angle)))
             .unwrap_or_else(|| g.apply(Function::Atan2, &[s, c]))

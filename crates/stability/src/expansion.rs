@@ -5,7 +5,7 @@ use crate::problem::LinearizationError;
 use crate::real_roots::sign_of;
 use crate::real_values::{corners, not_real};
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
-use crate::steady::{at_point, completed, echelon, solution, State, SOMEWHERE};
+use crate::steady::{at_point, completed, controls, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
@@ -129,17 +129,7 @@ impl<'a> Expansion<'a> {
 
     /// Controls by their laws, and zero where a model states none.
     pub(crate) fn controls(&self, es: &[Expr]) -> Vec<(Expr, Expr)> {
-        let g = self.graph();
-        let occurring = g.symbols_in(es);
-        let of = |symbol: Symbol| {
-            let name = g.symbol_name(symbol);
-            let control = self.system.controls.iter().find(|c| c.name == name)?;
-            let law = control.law.unwrap_or_else(|| g.zero());
-            let rate = |e: Expr| g.total_derivative(e, &|_| false);
-            let value = (0..g.symbol_order(symbol)).fold(law, |e, _| rate(e));
-            Some((g.symbol_expr(symbol), value))
-        };
-        occurring.into_iter().filter_map(of).collect()
+        controls(self.system, es)
     }
 
     fn check_autonomous(&self) -> Result<(), LinearizationError> {

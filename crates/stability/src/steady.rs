@@ -110,6 +110,20 @@ pub(crate) fn at_point(g: &Graph, es: &[Expr], replacements: &[&[(Expr, Expr)]])
     es.into_iter().map(|e| closed(g, e)).collect()
 }
 
+/// Controls by their laws, and zero where a model states none.
+pub(crate) fn controls(system: &System, es: &[Expr]) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let of = |symbol: Symbol| {
+        let name = g.symbol_name(symbol);
+        let control = system.controls.iter().find(|c| c.name == name)?;
+        let law = control.law.unwrap_or_else(|| g.zero());
+        let rate = |e: Expr| g.total_derivative(e, &|_| false);
+        let value = (0..g.symbol_order(symbol)).fold(law, |e, _| rate(e));
+        Some((g.symbol_expr(symbol), value))
+    };
+    g.symbols_in(es).into_iter().filter_map(of).collect()
+}
+
 /// The exact normal form of an expression, so that what vanishes is zero by its form; as it is where that is too large.
 pub(crate) fn closed(g: &Graph, e: Expr) -> Expr {
     if g.as_number(e).is_some() {

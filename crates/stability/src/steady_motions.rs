@@ -48,22 +48,22 @@ pub struct Found {
 }
 
 impl SteadySet {
-    /// Of which states nothing is said, a sentence for each kind.
+    /// Of which states nothing is said, a clause for each kind.
     pub fn left_out(&self, g: &Graph) -> Vec<String> {
         let excluded = self.excluded.iter();
         let mut all: Vec<String> = excluded
             .map(|&e| match g.text(e) {
                 text if text.len() <= LONGEST => format!(
-                    "Nothing is said where {text} vanishes: the equations are not defined there."
+                    "nothing is said where {text} vanishes: the equations are not defined there"
                 ),
                 text => format!(
-                    "Nothing is said where a function of {} signs vanishes, by which was divided.",
+                    "nothing is said where a function of {} signs vanishes, by which was divided",
                     text.len()
                 ),
             })
             .collect();
         if !self.has_full_rank {
-            all.push("Nothing is said of states at which the gradients of the constraints depend on each other.".into());
+            all.push("nothing is said of states at which the gradients of the constraints depend on each other".into());
         }
         all
     }

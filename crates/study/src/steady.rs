@@ -99,8 +99,8 @@ impl Steady {
         text.extend(set.found.iter().map(|own| words::paragraph(g, set, own)));
         text.push('\n');
         let _ = writeln!(text, "{}", self.completeness(set));
-        for sentence in set.left_out(g) {
-            let _ = writeln!(text, "{sentence}");
+        for clause in set.left_out(g) {
+            let _ = writeln!(text, "{}.", words::sentence(&clause));
         }
         text
     }

@@ -106,12 +106,9 @@ fn has_time(system: &System) -> bool {
 
 /// For which values of parameters, and for which states.
 fn on(g: &Graph, set: &SteadySet) -> String {
-    let mut on = String::from("for the values of the parameters that are stated");
-    for sentence in set.left_out(g) {
-        on.push_str("; n");
-        on.push_str(sentence.trim_start_matches('N').trim_end_matches('.'));
-    }
-    on
+    let values = String::from("for the values of the parameters that are stated");
+    let parts: Vec<String> = std::iter::once(values).chain(set.left_out(g)).collect();
+    parts.join("; ")
 }
 
 /// How many, and which.

@@ -3,6 +3,7 @@
 //! Newton's method begins at the motions that the model names, at the initial state, at rest in the initial positions, and at places about the first of
 //! these, the same ones at each call. What is found is a steady motion to rounding; that there are no others is not said.
 
+use super::words::sentence;
 use crate::follow::text::{number, plain, where_eigenvalues_lie};
 use crate::follow::{initial, of_motion, FollowError};
 use crate::stability::motions;
@@ -160,12 +161,10 @@ fn is_same(a: &[f64], b: &[f64]) -> bool {
 impl Search {
     /// The motions in words.
     pub(super) fn text(&self, name: &str) -> String {
-        let why = self.why.to_string();
         let mut text = format!(
-            "{name}: steady motions from {} starts, in numbers: nothing here is proved\n{}{}.\n\n",
+            "{name}: steady motions from {} starts, in numbers: nothing here is proved\n{}.\n\n",
             self.starts,
-            why.get(..1).unwrap_or_default().to_uppercase(),
-            why.get(1..).unwrap_or_default()
+            sentence(&self.why.to_string())
         );
         for (at, own) in self.found.iter().enumerate() {
             let values = self.variables.iter().zip(&own.point.unknowns);

@@ -27,3 +27,9 @@ pub(super) fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
         }
     }
 }
+
+/// A clause with a capital letter.
+pub(super) fn sentence(clause: &str) -> String {
+    let (first, rest) = clause.split_at(clause.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
+}
