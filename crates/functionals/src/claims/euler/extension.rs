@@ -31,6 +31,40 @@ struct Bound {
     is_inside: bool,
 }
 
+/// A system as a whole.
+struct Whole {
+    /// The equations of the body as they are solved.
+    inside: Vec<Bound>,
+    /// The same as they are written.
+    written: Vec<Bound>,
+    /// The conditions that hold at the jet.
+    here: Vec<Bound>,
+    /// Those at other places.
+    elsewhere: Vec<Bound>,
+    /// What occurs in what is looked at, and in the conditions that hold there.
+    looked_at: BTreeSet<Datum>,
+}
+
+impl Whole {
+    fn conditions(&self) -> impl Iterator<Item = &Bound> {
+        self.here.iter().chain(&self.elsewhere)
+    }
+
+    /// Whether a condition on the boundary speaks of a field of which the body says by a product what it may be: fields are continuous, so that
+    /// the factor that vanishes on the boundary may vanish everywhere.
+    fn products_meet(&self, space: &Space) -> bool {
+        let of = |e: Expr| {
+            let jets = space.jets_in(&[space.explicit(e)]).into_iter();
+            jets.map(|jet| jet.component).collect::<BTreeSet<usize>>()
+        };
+        let is_product = |own: &&Bound| jet_factors(space, own.e).len() > 1;
+        let products = self.written.iter().filter(is_product);
+        let bound: BTreeSet<usize> = products.flat_map(|own| of(own.e)).collect();
+        let meets = |own: &Bound| !of(own.e).is_disjoint(&bound);
+        self.conditions().any(meets)
+    }
+}
+
 impl<'f> Comparison<'f> {
     /// Whether any jet at a place at which a system holds there is that of fields with which it holds everywhere, for some data; for
     /// expressions that are looked at there.
@@ -56,18 +90,13 @@ impl<'f> Comparison<'f> {
     /// Whether fields with a jet at a place can keep to what is assumed of them, and to the signs of a branch, everywhere: either no condition
     /// on the boundary without data of its own speaks of these fields; or what is assumed holds strictly where all fields vanish, and so do the
     /// conditions, so that it holds for small fields, among which are some that refute.
-    fn keeps_signs(&self, conditions: &[(bool, Expr)], looked_at: &BTreeSet<Datum>) -> bool {
+    fn keeps_signs(&self, own: &Whole) -> bool {
         let signed = self.signed();
         if signed.is_empty() {
             return true;
         }
         let space = &*self.functional.space;
-        let bound = conditions.iter().map(|&(_, e)| Bound {
-            e,
-            data: self.data_in(e),
-            is_inside: false,
-        });
-        let bare = self.without_data(bound.collect(), looked_at);
+        let bare = self.without_data(own.conditions().cloned().collect(), &own.looked_at);
         let speaks = |own: &Bound| {
             let jets = space.jets_in(&[own.e]);
             jets.iter().any(|jet| signed.contains(&jet.component))
@@ -181,68 +210,78 @@ impl<'f> Comparison<'f> {
         if equations.any(|own| own.on.as_ref().is_some_and(|on| on.contains(','))) {
             return false;
         }
-        let solved = self.inside(system);
-        let inside = solved.beyond(&Solved::new(&functional.space));
-        let bound = |e: Expr, is_inside: bool| Bound {
-            e,
-            data: self.data_in(e),
-            is_inside,
-        };
-        let inside: Vec<Bound> = inside.into_iter().map(|e| bound(e, true)).collect();
-        let is_elsewhere = |piece: &&Piece| !is_line || on != Some(&piece.name);
-        let space = &*functional.space;
-        let conditions: Vec<(bool, Expr)> = functional
-            .pieces
-            .iter()
-            .filter_map(|piece| Some((is_elsewhere(&piece), self.on(piece, system)?)))
-            .flat_map(|(is_elsewhere, here)| {
-                here.beyond(solved)
-                    .into_iter()
-                    .map(move |e| (is_elsewhere, e))
-            })
-            .collect();
+        let own = self.whole(system, es, on);
         // What restricts parameters somewhere restricts them everywhere.
-        let restricts = |e: &Expr| space.jets_in(&[*e]).is_empty();
-        let all = conditions
-            .iter()
-            .map(|own| own.1)
-            .chain(solved.beyond(&Solved::new(space)));
-        let mut all = all;
-        if all.any(|e| restricts(&e)) {
+        let restricts = |own: &Bound| functional.space.jets_in(&[own.e]).is_empty();
+        if own.inside.iter().chain(own.conditions()).any(restricts) {
             return false;
         }
-        // A parameter is the same number everywhere, so also in what is looked at, and in the conditions that hold there.
-        let here = conditions.iter().filter(|own| !own.0).map(|own| own.1);
-        let looked_at: BTreeSet<Datum> = es
-            .iter()
-            .copied()
-            .chain(here)
-            .flat_map(|e| self.data_in(e))
-            .collect();
-        let is_continued = || {
-            let elsewhere = conditions.iter().filter(|own| own.0);
-            let mut all = inside.clone();
-            all.extend(elsewhere.map(|own| bound(own.1, false)));
-            let left = self.without_data(all, &looked_at);
-            self.signed().is_empty()
-                && self.is_regular_everywhere(solved)
-                && self.variation.corners.is_empty()
-                && left.iter().all(|own| own.is_inside)
-                && self.have_solutions(&left)
-        };
-        let written = self.as_written(system).into_iter();
-        let written: Vec<Bound> = written.map(|e| bound(e, true)).collect();
-        let hold = |all: &[Bound]| self.without_data(all.to_vec(), &looked_at).is_empty();
-        let is_local = || {
-            let mut pieces = functional.pieces.iter();
-            (hold(&written) || (self.is_regular_everywhere(solved) && hold(&inside)))
-                && self.keeps_signs(&conditions, &looked_at)
-                && !products_meet(space, &written, &conditions)
-                && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
-        };
-        let found = is_local() || is_continued();
+        let found = self.is_local(system, &own) || self.is_continued(system, &own);
         self.extended.borrow_mut().insert(system, found);
         found
+    }
+
+    /// The equations and conditions of a system, where expressions are looked at on a piece, or inside.
+    fn whole(&self, system: System, es: &[Expr], on: Option<&str>) -> Whole {
+        let functional = self.functional;
+        let space = &*functional.space;
+        let is_line = space.coordinates.len() == 1;
+        let solved = self.inside(system);
+        let bound = |es: Vec<Expr>, is_inside: bool| -> Vec<Bound> {
+            let of = |e: Expr| Bound {
+                e,
+                data: self.data_in(e),
+                is_inside,
+            };
+            es.into_iter().map(of).collect()
+        };
+        let (mut here, mut elsewhere) = (Vec::new(), Vec::new());
+        for piece in &functional.pieces {
+            let Some(own) = self.on(piece, system) else {
+                continue;
+            };
+            let conditions = bound(own.beyond(solved), false);
+            // On a line the conditions at the end where a jet is hold at it.
+            if is_line && on == Some(&piece.name) {
+                here.extend(conditions);
+            } else {
+                elsewhere.extend(conditions);
+            }
+        }
+        // A parameter is the same number everywhere, so also in what is looked at, and in the conditions that hold there.
+        let looked_at = es.iter().flat_map(|&e| self.data_in(e));
+        let of_here = here.iter().flat_map(|own: &Bound| own.data.clone());
+        Whole {
+            looked_at: looked_at.chain(of_here).collect(),
+            inside: bound(solved.beyond(&Solved::new(space)), true),
+            written: bound(self.as_written(system), true),
+            here,
+            elsewhere,
+        }
+    }
+
+    /// Whether the equations of the body hold by data of their own, so that fields are bound by nothing but conditions at single places.
+    fn is_local(&self, system: System, own: &Whole) -> bool {
+        let functional = self.functional;
+        let is_line = functional.space.coordinates.len() == 1;
+        let hold = |all: &[Bound]| self.without_data(all.to_vec(), &own.looked_at).is_empty();
+        let mut pieces = functional.pieces.iter();
+        (hold(&own.written)
+            || (self.is_regular_everywhere(self.inside(system)) && hold(&own.inside)))
+            && self.keeps_signs(own)
+            && !own.products_meet(&functional.space)
+            && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
+    }
+
+    /// Whether the conditions hold by data of their own, so that nothing but the equations of the body restricts a jet.
+    fn is_continued(&self, system: System, own: &Whole) -> bool {
+        let all = [own.inside.clone(), own.elsewhere.clone()].concat();
+        let left = self.without_data(all, &own.looked_at);
+        self.signed().is_empty()
+            && self.is_regular_everywhere(self.inside(system))
+            && self.variation.corners.is_empty()
+            && left.iter().all(|own| own.is_inside)
+            && self.have_solutions(&left)
     }
 
     /// Whether the conditions on a piece give fields and their derivatives across it, so that they are no differential equations along it; of
@@ -374,20 +413,4 @@ fn is_linear(space: &Space, e: Expr) -> bool {
     let jets = space.jets_in(&[e]);
     jets.iter()
         .all(|jet| space.jets_in(&[space.partial(e, jet)]).is_empty())
-}
-
-/// Whether a condition on the boundary speaks of a field of which the body says by a product what it may be: fields are continuous, so that the
-/// factor that vanishes on the boundary may vanish everywhere.
-fn products_meet(space: &Space, inside: &[Bound], conditions: &[(bool, Expr)]) -> bool {
-    let products = inside
-        .iter()
-        .filter(|own| jet_factors(space, own.e).len() > 1);
-    let of = |e: Expr| {
-        let jets = space.jets_in(&[space.explicit(e)]).into_iter();
-        jets.map(|jet| jet.component).collect::<BTreeSet<usize>>()
-    };
-    let bound: BTreeSet<usize> = products.flat_map(|own| of(own.e)).collect();
-    conditions
-        .iter()
-        .any(|own| of(own.1).iter().any(|component| bound.contains(component)))
 }
