@@ -479,12 +479,12 @@ impl Walk<'_> {
         Ok(end)
     }
 
-    /// Whether a test vanishes at a point, to rounding of what it is at the one before.
+    /// Whether a test vanishes at a point, to rounding of what it is at the one before; one that does not vanish everywhere is no number there.
     fn is_special(&self, before: &Stand, at: &Stand) -> bool {
         let [before, here] =
             [before, at].map(|own| self.equations.tests(&own.point.spectrum.values));
         let mut both = before.iter().zip(&here);
-        both.any(|(a, b)| b.abs() < SPECIAL * a.abs())
+        both.any(|(a, b)| !a.is_nan() && (b.is_nan() || b.abs() < SPECIAL * a.abs()))
     }
 
     /// The next point at this length, where the direction does not change much.

@@ -203,6 +203,16 @@ fn linear_equations_for_other_programs() {
     let _ = std::fs::remove_dir_all(&folder);
     let few = run(&["linearize", text(&path), "--speeds", "phi'"]);
     assert!(few.both().contains("name 3 speeds"), "{}", few.both());
+    // One twice, one times another number, and no function linear in the velocities.
+    for choice in ["phi',phi',thR'", "phi',2*phi',thR'", "phi'^2,delta',thR'"] {
+        let found = run(&["linearize", text(&path), "--speeds", choice]);
+        assert_eq!(found.status, Some(2), "{choice}");
+        let said = found.both();
+        assert!(
+            said.contains("is no choice of independent speeds"),
+            "{said}"
+        );
+    }
 }
 
 #[test]

@@ -122,6 +122,32 @@ fn lorenz() {
     is_close(ends[1], (8.0_f64 / 3.0 * 29.0).sqrt(), 1e-12);
 }
 
+/// x' = y, y' = a y − x − y³ has its Hopf point at a = 0, also where a step ends there: from starts on either side, with steps that are parts of the way.
+#[test]
+fn a_step_that_ends_on_a_special_point_does_not_hide_it() {
+    let own = Plain::new();
+    let g = &own.g;
+    let [(xs, x), (ys, y), (a_s, a)] = ["x", "y", "a"].map(|name| own.s(name));
+    let damped = g.sub(g.mul(&[a, y]), g.powi(y, 3));
+    let rates = vec![y, g.sub(damped, x)];
+    let flow = Flow::of_rates(own.g.clone(), vec![xs, ys], rates, vec![(a_s, 0.1)]);
+    for start in [0.1, -0.1, 0.5, 0.05] {
+        for step in [0.05, 0.025, 0.01, 0.005] {
+            let mut equations = Equilibria::new(&flow, Some(a_s)).unwrap();
+            let pace = Pace { points: 5000, step };
+            let found = follow(&mut equations, (&[0.0, 0.0], start), (-1.0, 1.0), pace).unwrap();
+            let is_hopf = |kind: &Kind| matches!(kind, Kind::Hopf { .. });
+            let special: Vec<_> = found
+                .special
+                .iter()
+                .filter(|own| is_hopf(&own.kind))
+                .collect();
+            assert_eq!(special.len(), 1, "from {start} by {step}");
+            is_close(special[0].point.parameter, 0.0, 1e-9);
+        }
+    }
+}
+
 /// The Brusselator: B = 1 + A², ω = A, l₁ < 0 (Hassard, Kazarinoff and Wan 1981); the orbit that is born, and its multipliers, which multiply to
 /// exp ∮ div f.
 #[test]
