@@ -4,6 +4,9 @@
 //! The common zeros are written by irreducible equations without powers (Wu's triangular systems), sums of squares by their terms as the
 //! states are real. Where the gradients of the constraints as they are stated have a lower rank on each part than it has equations, the
 //! constraints have a multiple zero, and these equations have the same points and a simple one.
+//!
+//! Constraints of velocities may leave positions only on which a further condition holds: `x' = 0` and `y x' = z` hold where `z = 0` alone.
+//! Its rate then holds too, and where that is no combination of the constraints, their gradients miss a direction in which the motion is held.
 
 use crate::characteristics::{CharacteristicsError, Manifold};
 use crate::claims::{Degenerate, Prepared};
@@ -15,6 +18,7 @@ use crate::words::quoted;
 use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
 use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::real_factors::zero_set;
+use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Symbol};
@@ -28,6 +32,8 @@ pub struct Multiplicity {
     pub rank: usize,
     /// Simpler functions that vanish at the same states, for each part of the set.
     pub simpler: Vec<Vec<Expr>>,
+    /// For each part all conditions on the positions, where they are more than the constraints state; else none.
+    pub hidden: Vec<Vec<Expr>>,
     /// Parameters with their values, where it is so for these and not for others.
     pub values: Vec<(Expr, Expr)>,
 }
@@ -80,12 +86,8 @@ impl Multiplicity {
             let texts: Vec<String> = all.iter().map(|&e| format!("{} = 0", g.text(e))).collect();
             texts.join(", ")
         };
-        let parts: Vec<String> = self.simpler.iter().map(part).collect();
+        let parts = |all: &[Vec<Expr>]| all.iter().map(part).collect::<Vec<_>>().join(" or ");
         let (rank, names) = (self.rank, quoted(&self.names));
-        let are = match self.names.len() {
-            1 => format!("the gradient of {names} vanishes wherever it holds: it has"),
-            _ => format!("the gradients of {names} have the rank {rank} wherever these hold, although none follows from the others: they have"),
-        };
         let equal = |&(parameter, value): &(Expr, Expr)| {
             format!("{} = {}", g.text(parameter), g.text(value))
         };
@@ -94,9 +96,26 @@ impl Multiplicity {
             [] => String::new(),
             all => format!("for {}, as the model states it, ", all.join(", ")),
         };
+        let gradients = match self.names.len() {
+            1 => format!("the gradient of {names} vanishes wherever it holds"),
+            _ => format!("the gradients of {names} have the rank {rank} wherever these hold, although none follows from the others"),
+        };
+        let why = if self.hidden.iter().all(|own| !own.is_empty()) {
+            let only = parts(&self.hidden);
+            format!("{names} hold only where {only}, which is more than they state of the positions, and their gradients have the rank {rank} there")
+        } else if self.hidden.iter().any(|own| !own.is_empty()) {
+            gradients
+        } else {
+            let they = if self.names.len() == 1 {
+                "it has"
+            } else {
+                "they have"
+            };
+            format!("{gradients}: {they} a multiple zero there")
+        };
         format!(
-            "{values}{are} a multiple zero there, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
-            parts.join(" or ")
+            "{values}{why}, and multipliers determine no motion; the same states satisfy {}, which can be stated instead",
+            parts(&self.simpler)
         )
     }
 }
@@ -185,7 +204,7 @@ impl<'a> Question<'a> {
         let simpler = |&e: &Expr| zero_set(g, e, &self.symbols, &known).unwrap_or_else(|| vec![e]);
         let functions = self.functions.iter().flat_map(simpler).collect();
         let mut parts = Vec::new();
-        self.real_parts(functions, DEPTH, &mut parts)?;
+        self.complete_parts(functions, self.finite, DEPTH, &mut parts)?;
         let mut rank = 0;
         for part in &parts {
             let manifold = Manifold {
@@ -193,30 +212,88 @@ impl<'a> Question<'a> {
                 implicit: part.equations.clone(),
             };
             let own = prover.rank(self.system, &self.gradients, &manifold).ok()?;
-            if own.maximum >= self.expected(part)? {
+            if own.maximum >= self.expected(part) {
                 return None;
             }
             rank = rank.max(own.maximum);
         }
-        let functions = |part: Zeros| part.equations.into_iter().map(|(e, _)| e).collect();
+        let hidden = parts.iter().map(|part| self.hidden(part)).collect();
+        let simpler = parts.iter().map(|part| self.without_rates(part)).collect();
         (!parts.is_empty()).then(|| Multiplicity {
             names: self.names.clone(),
             rank,
-            simpler: parts.into_iter().map(functions).collect(),
+            simpler,
+            hidden,
             values: self.values.clone(),
         })
     }
 
-    /// The rank that regular constraints have on a part: its codimension among positions, or among velocities over them. `None` where the constraints
-    /// hide a condition on positions, which is another fault.
-    fn expected(&self, part: &Zeros) -> Option<usize> {
-        let (g, velocities) = (&self.system.graph, self.system.velocity_symbols());
-        let is_of_velocity = |(e, _): &&(Expr, Symbol)| g.contains_any(*e, &velocities);
-        let of_velocities = part.equations.iter().filter(is_of_velocity).count();
-        match part.codimension - of_velocities {
-            positions if self.is_of_positions => Some(positions),
-            positions => (positions <= self.finite).then_some(of_velocities),
+    /// The rank that regular constraints have on a part: its codimension among positions, or among velocities over them.
+    fn expected(&self, part: &Zeros) -> usize {
+        match self.is_of_positions {
+            true => part.codimension,
+            false => part.codimension - self.positions(part).len(),
         }
+    }
+
+    /// The equations of a part that contain no velocities.
+    fn positions(&self, part: &Zeros) -> Vec<Expr> {
+        let (g, velocities) = (&self.system.graph, self.system.velocity_symbols());
+        let own = part.equations.iter().map(|(e, _)| *e);
+        own.filter(|&e| !g.contains_any(e, &velocities)).collect()
+    }
+
+    /// These, where they are more than the constraints state.
+    fn hidden(&self, part: &Zeros) -> Vec<Expr> {
+        let found = self.positions(part);
+        if self.is_of_positions || found.len() <= self.finite {
+            return Vec::new();
+        }
+        found
+    }
+
+    /// The equations of a part but for those that are rates of others, which the others imply.
+    fn without_rates(&self, part: &Zeros) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let positions = self.positions(part);
+        let rates: Vec<Expr> = positions
+            .iter()
+            .map(|&e| self.system.total_derivative(e))
+            .collect();
+        let is_rate = |e: Expr| {
+            let mut ratios = rates.iter().map(|&rate| g.div(e, rate));
+            ratios.any(|ratio| {
+                g.as_number(simplify(g, ratio, &Options::default()))
+                    .is_some()
+            })
+        };
+        let own = part.equations.iter().map(|(e, _)| *e);
+        own.filter(|&e| !is_rate(e)).collect()
+    }
+
+    /// The parts of the common zeros with the rates of what they demand of the positions, which a motion on them satisfies too. `stated` of these
+    /// demands have their rates among the functions.
+    fn complete_parts(
+        &self,
+        functions: Vec<Expr>,
+        stated: usize,
+        depth: usize,
+        found: &mut Vec<Zeros>,
+    ) -> Option<()> {
+        let deeper = depth.checked_sub(1)?;
+        let mut parts = Vec::new();
+        self.real_parts(functions, DEPTH, &mut parts)?;
+        for part in parts {
+            let positions = self.positions(&part);
+            if self.is_of_positions || positions.len() <= stated {
+                found.push(part);
+                continue;
+            }
+            let rates = positions.iter().map(|&e| self.system.total_derivative(e));
+            let own = part.equations.iter().map(|(e, _)| *e);
+            self.complete_parts(own.chain(rates).collect(), positions.len(), deeper, found)?;
+        }
+        Some(())
     }
 
     /// The parts of the common zeros of functions that may have real points; `None` where they are not found.
