@@ -68,6 +68,7 @@ impl Space {
             multiplicity: if a == b { 1 } else { 2 },
             is_varied: false,
             is_of_boundary: true,
+            constant_along: Vec::new(),
         })
     }
 

@@ -250,15 +250,26 @@ impl Space {
     fn both_ways(&self, (a, b): (usize, usize), there: &[Expr], back: &[Expr]) -> Verdict {
         let name = |function: usize| self.function_at(function).name;
         let one = |residuals: &[Expr], inner: usize, outer: usize| {
-            let verdict = self.vanishing(residuals, true);
-            match verdict {
-                Verdict::Proved(_) => verdict,
-                _ => verdict.prefixed(&format!(
+            let Some((sum, gradients)) = residuals.split_last() else {
+                return Verdict::undecided("there is nothing to compare");
+            };
+            let verdict = self.vanishing(gradients, true);
+            let Verdict::Proved(_) = verdict else {
+                return verdict.prefixed(&format!(
                     "the gradient of {} does not undo that of {} by formula",
                     name(outer),
                     name(inner)
-                )),
-            }
+                ));
+            };
+            let whole = self.vanishing(std::slice::from_ref(sum), true);
+            let Verdict::Proved(_) = whole else {
+                return whole.prefixed(&format!(
+                    "the gradients of {0} and {1} undo each other, but {0} and {1} do not add up to the product",
+                    name(a),
+                    name(b)
+                ));
+            };
+            verdict.and(whole)
         };
         let (there, back) = (one(there, a, b), one(back, b, a));
         let detail = format!(

@@ -136,6 +136,20 @@ impl Polynomial {
             .map(|(exponents, value)| (&exponents[..], value))
     }
 
+    /// The function of which this is the derivative by a variable, and which vanishes where that does.
+    #[must_use]
+    pub fn primitive(&self, axis: usize) -> Polynomial {
+        let mut found = Polynomial::default();
+        for (exponents, value) in self.terms() {
+            let mut own = exponents.to_vec();
+            own.resize(own.len().max(axis + 1), 0);
+            own[axis] += 1;
+            let share = value / rational::integer(i64::from(own[axis]));
+            found.add(&Polynomial::monomial(own, share), &rational::integer(1));
+        }
+        found
+    }
+
     /// Adds a multiple of another one.
     pub fn add(&mut self, other: &Polynomial, factor: &Rational) {
         for (exponents, value) in &other.0 {

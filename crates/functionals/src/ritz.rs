@@ -130,18 +130,8 @@ pub fn approximation(
 /// Values of parameters and data put in.
 pub fn with_values(functional: &Functional, asked: &Asked, e: Expr) -> Expr {
     let space = &*functional.space;
-    let known = functional.values();
-    space.replace(space.explicit(e), &|symbol| {
-        let own = space.graph.symbol_expr(symbol);
-        let find = |e: Expr| {
-            let mut all = asked.values.iter().chain(&known);
-            all.find(|(l, _)| *l == e).map(|(_, r)| *r)
-        };
-        match space.as_jet(symbol) {
-            Some(jet) => Some(space.totals(find(space.jet(jet.component, &[]))?, &jet.by)),
-            None => find(own),
-        }
-    })
+    let pairs = [asked.values.clone(), functional.values()].concat();
+    space.put(space.explicit(e), &pairs)
 }
 
 /// The components that are varied.

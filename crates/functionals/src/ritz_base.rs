@@ -28,7 +28,7 @@ pub(crate) struct Base {
 type Table = Vec<(usize, usize, Rational)>;
 
 impl Base {
-    /// Polynomials of a degree, times the factors for what is given on the faces: one for a value, two for a value with its slope.
+    /// Polynomials that satisfy what is given on the faces: of a degree, and of one more for every condition.
     pub(crate) fn new(functional: &Functional, domain: &Domain, degree: usize) -> Base {
         let components: Vec<usize> = functional
             .interior()
@@ -37,15 +37,15 @@ impl Base {
         let legendre: Vec<Vec<Line>> = domain
             .intervals
             .iter()
-            .map(|(_, lower, upper)| legendre(lower, upper, degree))
+            .map(|(_, lower, upper)| legendre(lower, upper, degree + 2))
             .collect();
         let lines = components
             .iter()
             .map(|&component| {
                 let axes = domain.intervals.iter().zip(&legendre);
                 axes.map(|((axis, lower, upper), free)| {
-                    let factor = factor(functional, component, *axis, (lower, upper));
-                    free.iter().map(|own| times(own, &factor)).collect()
+                    let held = Held::of(functional, component, *axis, (lower, upper));
+                    held.lines(free, degree + 1)
                 })
                 .collect()
             })
@@ -252,31 +252,85 @@ fn legendre(lower: &Rational, upper: &Rational, degree: usize) -> Vec<Line> {
     found
 }
 
-/// What vanishes on the faces across an axis on which a component is given.
-fn factor(
-    functional: &Functional,
-    component: usize,
-    axis: usize,
-    (lower, upper): (&Rational, &Rational),
-) -> Line {
-    let mut found = vec![rational::integer(1)];
-    for piece in &functional.pieces {
-        let Side::Flat {
-            axis: own,
-            is_upper,
-            ..
-        } = piece.side
-        else {
-            continue;
+/// What is held of a component on the two faces across an axis.
+struct Held {
+    /// What vanishes where the component is given: to the second order where its slope across the face is given too.
+    factor: Line,
+    /// Places at which the slope alone is given.
+    slopes: Vec<Rational>,
+}
+
+impl Held {
+    fn of(
+        functional: &Functional,
+        component: usize,
+        axis: usize,
+        (lower, upper): (&Rational, &Rational),
+    ) -> Held {
+        let mut found = Held {
+            factor: vec![rational::integer(1)],
+            slopes: Vec::new(),
         };
-        let at = if is_upper { upper } else { lower };
-        for is_normal in [false, true] {
-            if own == axis && piece.fixed.contains(&(component, is_normal)) {
-                found = times(&found, &vec![-at.clone(), rational::integer(1)]);
+        for piece in &functional.pieces {
+            let Side::Flat {
+                axis: own,
+                is_upper,
+                ..
+            } = piece.side
+            else {
+                continue;
+            };
+            if own != axis {
+                continue;
+            }
+            let at = if is_upper { upper } else { lower };
+            let has = |is_normal| piece.fixed.contains(&(component, is_normal));
+            let orders = usize::from(has(false)) * (1 + usize::from(has(true)));
+            for _ in 0..orders {
+                found.factor = times(&found.factor, &vec![-at.clone(), rational::integer(1)]);
+            }
+            if has(true) && !has(false) {
+                found.slopes.push(at.clone());
             }
         }
+        found
     }
-    found
+
+    /// So many polynomials that satisfy what is held, of the lowest degrees: each whose slope does not vanish where it has to is made to by the
+    /// last one before it of the same kind.
+    fn lines(&self, free: &[Line], count: usize) -> Vec<Line> {
+        let mut found: Vec<Line> = free.iter().map(|own| times(own, &self.factor)).collect();
+        for place in &self.slopes {
+            let mut before: Option<(Line, Rational)> = None;
+            let mut kept = Vec::new();
+            for line in found {
+                let own = value(&slope(&line), place);
+                if own == Rational::ZERO {
+                    kept.push(line);
+                    continue;
+                }
+                if let Some((last, other)) = &before {
+                    let share = rational::product(&rational::integer(-1), &(&own / other));
+                    kept.push(sum(&line, last, &share));
+                }
+                before = Some((line, own));
+            }
+            found = kept;
+        }
+        found.truncate(count);
+        found
+    }
+}
+
+/// `a + factor b`.
+fn sum(a: &Line, b: &Line, factor: &Rational) -> Line {
+    let zero = Rational::ZERO;
+    (0..a.len().max(b.len()))
+        .map(|n| {
+            let other = b.get(n).unwrap_or(&zero);
+            a.get(n).unwrap_or(&zero) + rational::product(factor, other)
+        })
+        .collect()
 }
 
 fn times(a: &Line, b: &Line) -> Line {

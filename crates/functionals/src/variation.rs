@@ -235,6 +235,7 @@ impl Multipliers {
                 multiplicity: 1,
                 is_varied: false,
                 is_of_boundary: false,
+                constant_along: Vec::new(),
             });
             self.values.push((component, value));
             terms.push(g.mul(&[space.jet(component, &[]), residual]));

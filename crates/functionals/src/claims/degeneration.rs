@@ -1,10 +1,11 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
+use super::admitted::Admitted;
 use super::modulo::{equations, other_body, vanishing_difference, STATED};
 use super::special_values::{instance, put_in, unfit};
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::{Field, Functional, Piece, Relation, Role, Special};
-use chetaev_symbolic::verdict::{Counterexample, Proof};
+use crate::functional::{Functional, Relation, Role, Special};
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `functional.degeneration#NAME`.
@@ -22,9 +23,9 @@ impl Claim for Degeneration {
     fn explanation(&self) -> &'static str {
         "The values that a section [degenerations.NAME] states are put in for parameters, sizes, fields and constitutive functions; the \
          densities of the interior and of every piece of the boundary must then be those of the functional that it names, for all fields \
-         that this one admits. Where they agree only because of what it imposes, the verdict names it. Field equations that \
-         follow from a functional are not used: by these it would be equal to many others. Where the densities differ the claim is \
-         refuted, and the difference is shown."
+         that both admit. Both must vary the same: what one imposes, or gives on the boundary, the other one does too, with the values put in. \
+         Where the densities agree only because of what is imposed, the verdict names it. Field equations that follow from a functional are \
+         not used: by these it would be equal to many others. Where the densities differ the claim is refuted, and the difference is shown."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -64,6 +65,7 @@ impl Claim for Degeneration {
                     other,
                     how: &how,
                     values,
+                    besides: &[],
                     is_descent: false,
                 };
                 comparison.decided(&|e| put_in(functional, values, e))
@@ -83,6 +85,8 @@ pub(super) struct Comparison<'f> {
     pub how: &'f str,
     /// The special values that were put in.
     pub values: &'f [Special],
+    /// Labels of equations that were imposed besides.
+    pub besides: &'f [String],
     /// Whether the other functional is one level below: what it imposes is then said in the fields of the first, and on the boundary a
     /// difference may be of second order in stated equations, so that neither the value of the functional where they hold nor its first
     /// variation there depends on it.
@@ -101,8 +105,13 @@ impl Comparison<'_> {
         let g = &space.graph;
         let mut notes = Vec::new();
         let mut all = Verdict::Proved(Proof::exact("", ""));
-        if let (Some(said), false) = (varied_otherwise(functional, other), self.is_descent) {
-            return Verdict::Refuted(said).into();
+        let admitted = Admitted {
+            functional,
+            values: self.values,
+            besides: self.besides,
+        };
+        if let Some(verdict) = admitted.differs_from(other) {
+            return verdict.into();
         }
         let mut places = vec![(None, functional.density, other.density)];
         for piece in &other.pieces {
@@ -110,10 +119,6 @@ impl Comparison<'_> {
                 let said = format!("`{}` has no piece {}", functional.name, piece.name);
                 return Verdict::undecided(said).into();
             };
-            if let (Some(said), false) = (given_otherwise(functional, own, piece), self.is_descent)
-            {
-                return Verdict::Refuted(said).into();
-            }
             places.push((Some(piece.name.as_str()), own.density, piece.density));
         }
         for (on, own, wanted) in places {
@@ -183,48 +188,4 @@ impl Comparison<'_> {
             other => other,
         }
     }
-}
-
-/// What is a field of one functional, and data of the other: then they have other variations.
-fn varied_otherwise(functional: &Functional, other: &Functional) -> Option<Counterexample> {
-    let is_both = |fields: &[Field], data: &[Field]| {
-        let mut own = fields.iter();
-        let found = own.find(|field| data.iter().any(|own| own.name == field.name));
-        found.map(|field| field.name.clone())
-    };
-    let here = is_both(&functional.fields, &other.data);
-    let here = here.map(|name| format!("{name} is varied here, and given there"));
-    let there = is_both(&other.fields, &functional.data);
-    let there = there.map(|name| format!("{name} is given here, and varied there"));
-    let detail = here.or(there)?;
-    Some(Counterexample {
-        point: Vec::new(),
-        residual: ("1".into(), "1".into()),
-        quantity: "what is varied".into(),
-        detail: format!("{detail}, so that the variations are others"),
-    })
-}
-
-/// What is given on a piece by one functional only: then they have other variations there.
-fn given_otherwise(functional: &Functional, own: &Piece, other: &Piece) -> Option<Counterexample> {
-    let differs = |one: &Piece, two: &Piece| {
-        let mut fixed = one.fixed.iter();
-        fixed.find(|given| !two.fixed.contains(given)).copied()
-    };
-    let here = differs(own, other).map(|given| (given, "is given here, and not there"));
-    let there = || differs(other, own).map(|given| (given, "is given there, and not here"));
-    let ((component, is_slope), where_given) = here.or_else(there)?;
-    let name = functional.space.component_at(component).name;
-    let slope = if is_slope {
-        "the normal derivative of "
-    } else {
-        ""
-    };
-    let quantity = format!("{slope}{name} on {}", own.name);
-    Some(Counterexample {
-        point: Vec::new(),
-        residual: ("1".into(), "1".into()),
-        detail: format!("{quantity} {where_given}, so that the variations are others"),
-        quantity,
-    })
 }

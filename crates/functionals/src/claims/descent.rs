@@ -22,7 +22,7 @@ impl Claim for Descent {
     fn explanation(&self) -> &'static str {
         "The equations that [descent] names are imposed on the functional of the level above: they are solved for one of its fields, \
          whose place the solution takes in all densities. What comes out must be the functional of this model, for all fields that it \
-         admits. On the boundary the densities may differ by a product of what two of its equations say is zero, since such a term changes \
+         admits, and admit the same: an equation that says something of the fields that are left is imposed on them too. On the boundary the densities may differ by a product of what two of its equations say is zero, since such a term changes \
          neither the value of the functional nor its first variation where they hold: the verdict names them."
     }
 
@@ -102,6 +102,7 @@ pub(super) fn descended(
         other: functional,
         how: &how,
         values: &[],
+        besides: imposed,
         is_descent: true,
     };
     comparison.decided(&|e: Expr| {

@@ -1,6 +1,7 @@
 //! The claims about functionals, one file each, in a registry.
 
 pub mod admission;
+mod admitted;
 mod branches;
 mod degeneration;
 mod descent;

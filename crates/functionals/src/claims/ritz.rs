@@ -1,15 +1,18 @@
 //! `functional.ritz`: Ritz's method gives the closed solution, or comes near to it.
 
+use super::special_values::unfit;
 use super::{Claim, Context, Finding, Formula};
-use crate::functional::Functional;
+use crate::functional::{Functional, Special, SpecialKind};
 use crate::ritz::{approximation, with_values, Approximation, Asked, Point};
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
-use chetaev_symbolic::{rational, Expr, Verdict};
+use chetaev_symbolic::{rational, Expr, Rational, Verdict};
 
 /// `functional.ritz#NAME`.
 pub(super) struct Ritz;
 
+/// Decimal digits that are looked at.
+const DIGITS: usize = 40;
 /// Largest relative error at a point that counts as agreement.
 const NEAR: f64 = 1e-3;
 
@@ -40,6 +43,13 @@ impl Claim for Ritz {
         let (Some(asked), Ok(variation)) = (&cx.problem.ritz, &cx.variation) else {
             return Verdict::undecided("the first variation was not derived").into();
         };
+        let special = Special {
+            written: String::new(),
+            what: SpecialKind::Symbols(asked.values.clone()),
+        };
+        if let Some(unfit) = unfit(cx.functional(), &[special]) {
+            return unfit.into();
+        }
         let mut all = Vec::new();
         for &degree in &asked.degrees {
             match approximation(cx.functional(), asked, degree) {
@@ -114,7 +124,7 @@ fn verdict(
     };
     let exact = residuals(functional, variation, asked, last);
     if exact.iter().all(|&e| space.vanish(&[e])) {
-        let mut stated = asked.points.iter().filter(|point| point.is_exact);
+        let mut stated = asked.points.iter();
         if let Some(found) = stated.find_map(|point| otherwise(point, last)) {
             return Verdict::Refuted(found);
         }
@@ -152,12 +162,18 @@ fn verdict(
     }
 }
 
-/// A stated value that the solution does not have.
+/// A stated value that the solution does not have, within a unit of the last digit where it is a decimal fraction of the value.
 fn otherwise(point: &Point, own: &Approximation) -> Option<Counterexample> {
     let (_, polynomial) = own.fields.iter().find(|(c, _)| *c == point.component)?;
     let value = polynomial.exact(&point.at);
-    let difference = format!("{:.9e}", rational::to_f64(&(&value - &point.value)));
-    (value != point.value).then(|| Counterexample {
+    let distance = &value - &point.value;
+    let is_far = if point.is_exact {
+        distance != Rational::ZERO
+    } else {
+        rational::abs(&distance) >= last_digit(&point.value)
+    };
+    let difference = format!("{:.9e}", rational::to_f64(&distance));
+    is_far.then(|| Counterexample {
         point: Vec::new(),
         quantity: point.written.clone(),
         residual: (difference.clone(), difference),
@@ -166,6 +182,20 @@ fn otherwise(point: &Point, own: &Approximation) -> Option<Counterexample> {
             own.degree, point.written, point.value
         ),
     })
+}
+
+/// A unit of the last decimal digit of a number; of the fortieth where it has no last one.
+fn last_digit(value: &Rational) -> Rational {
+    let tenth = rational::ratio(1, 10).unwrap_or(Rational::ZERO);
+    let mut unit = rational::integer(1);
+    for _ in 0..DIGITS {
+        let whole = value / &unit;
+        if whole.is_int() {
+            break;
+        }
+        unit = rational::product(&unit, &tenth);
+    }
+    unit
 }
 
 /// Euler expressions and natural conditions at the polynomial.

@@ -8,12 +8,11 @@ use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
 use crate::read::on_side;
 use crate::smoothness::{guards, Guard, Region};
-use crate::space::Space;
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions, Relation};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{rational, Expr, Symbol, Verdict};
+use chetaev_symbolic::{rational, Expr, Verdict};
 
 /// `functional.solution#NAME`.
 pub(super) struct Stated;
@@ -65,21 +64,6 @@ impl Claim for Stated {
             (_, Err(problem)) => Verdict::undecided(problem.to_string()).into(),
         }
     }
-}
-
-/// Values put in for fields with their derivatives, data and parameters.
-fn put(space: &Space, pairs: &[(Expr, Expr)], e: Expr) -> Expr {
-    let value = |own: Expr| pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r);
-    space.replace(
-        space.explicit(e),
-        &|symbol: Symbol| match space.as_jet(symbol) {
-            Some(jet) => {
-                let value = value(space.jet(jet.component, &[]))?;
-                Some(space.totals(value, &jet.by))
-            }
-            None => value(space.graph.symbol_expr(symbol)),
-        },
-    )
 }
 
 struct Inserted<'f> {
@@ -240,7 +224,7 @@ impl<'f> Inserted<'f> {
         let functions: Vec<Special> = self.some(|s| matches!(s.what, SpecialKind::Function { .. }));
         let space = &*self.functional.space;
         let e = put_in(self.functional, &functions, e);
-        put(space, &self.pairs(), e)
+        space.put(space.explicit(e), &self.pairs())
     }
 
     /// The stated values with each other put in.
@@ -256,7 +240,7 @@ impl<'f> Inserted<'f> {
         // So many at most stand between a value and what it needs.
         for _ in 0..stated.len() {
             for (_, value) in &mut pairs {
-                *value = put(space, &stated, *value);
+                *value = space.put(space.explicit(*value), &stated);
             }
         }
         pairs
@@ -266,7 +250,8 @@ impl<'f> Inserted<'f> {
     fn circular(&self) -> Option<String> {
         let space = &*self.functional.space;
         let pairs = self.pairs();
-        let is_open = |value: &Expr| put(space, &pairs, *value) != space.explicit(*value);
+        let is_open =
+            |value: &Expr| space.put(space.explicit(*value), &pairs) != space.explicit(*value);
         let (own, _) = pairs.iter().find(|(_, value)| is_open(value))?;
         Some(space.graph.text(*own))
     }

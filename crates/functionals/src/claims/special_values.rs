@@ -97,10 +97,7 @@ pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Ex
     });
     values.iter().fold(e, |e, special| match &special.what {
         SpecialKind::Size | SpecialKind::Function { .. } => e,
-        SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {
-            let own = space.graph.symbol_expr(symbol);
-            pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r)
-        }),
+        SpecialKind::Symbols(pairs) => space.put(e, pairs),
     })
 }
 

@@ -57,7 +57,7 @@ impl<'s> Solved<'s> {
         if own.is_some() || !self.is_cut || self.is_circular() {
             return own;
         }
-        self.prolonged().impossible()
+        self.prolonged()?.impossible()
     }
 
     fn impossible(&self) -> Option<(String, Expr)> {

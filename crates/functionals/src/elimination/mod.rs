@@ -28,12 +28,17 @@ pub(crate) use self::consequences::factors_of;
 use self::ranking::Ranking;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
+use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
 use chetaev_symbolic::{rational, Expr, Node, Rational, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+
+/// Seconds of work for conditions of integrability that raise the order: they decide whether something is refuted, and products of many
+/// derivatives have so many that the rest of a study would wait for them.
+const PROLONGING: f64 = 3.0;
 
 /// Equations that belong together: the components of one.
 #[derive(Clone, Debug)]
@@ -63,7 +68,8 @@ pub struct Solved<'s> {
     order: Option<usize>,
     /// Whether there are conditions beyond that order.
     is_cut: bool,
-    prolonged: RefCell<Option<Rc<Solved<'s>>>>,
+    /// With further conditions, once they were asked for; nothing where they are too much work.
+    prolonged: RefCell<Option<Option<Rc<Solved<'s>>>>>,
     known: RefCell<BTreeMap<Jet, Expr>>,
     /// The jets whose values are being computed, each for that of the one before.
     open: RefCell<Vec<Jet>>,
@@ -247,6 +253,7 @@ impl<'s> Solved<'s> {
         self.space.component(Component {
             name: format!("∂{name}/∂n"),
             tensor: format!("∂{}{by}/∂n", of.tensor),
+            constant_along: Vec::new(),
             ..of.clone()
         })
     }
@@ -277,8 +284,8 @@ impl<'s> Solved<'s> {
         2 * orders.max().unwrap_or(0) + 1
     }
 
-    /// The same with the conditions of integrability that raise the order.
-    fn prolonged(&self) -> Rc<Solved<'s>> {
+    /// The same with the conditions of integrability that raise the order; nothing where these are too much work.
+    fn prolonged(&self) -> Option<Rc<Solved<'s>>> {
         let known = self.prolonged.borrow().clone();
         if let Some(known) = known {
             return known;
@@ -287,9 +294,12 @@ impl<'s> Solved<'s> {
         own.order = Some(self.highest());
         own.is_cut = false;
         own.crossed.clear();
-        own.solve();
-        let made = Rc::new(own);
-        *self.prolonged.borrow_mut() = Some(Rc::clone(&made));
+        let solved = within(&Work::of_seconds(PROLONGING), move || {
+            own.solve();
+            own
+        });
+        let made = solved.ok().map(Rc::new);
+        *self.prolonged.borrow_mut() = Some(made.clone());
         made
     }
 
@@ -535,7 +545,12 @@ impl<'s> Solved<'s> {
         if !self.is_cut {
             return Verdict::Refuted(found);
         }
-        let full = self.prolonged();
+        let Some(full) = self.prolonged() else {
+            return Verdict::undecided(format!(
+                "it does not follow from the equations as they are solved; conditions of integrability up to order {} were too much work",
+                self.highest()
+            ));
+        };
         let own = full.here(e);
         if full.pivots != self.pivots {
             return Verdict::undecided(format!(

@@ -280,8 +280,12 @@ impl Reader<'_> {
         };
         for (key, raw) in &entries.entries {
             if let Some(own) = raw.table() {
-                let known = ["kind", "description", "on"];
-                self.known_keys(own, &known, "a field or of data");
+                let known: &[&str] = if is_varied {
+                    &["kind", "description", "on"]
+                } else {
+                    &["kind", "description", "on", "of"]
+                };
+                self.known_keys(own, known, if is_varied { "a field" } else { "data" });
             }
             let (kind, description) = self.described(raw, "kind");
             let on = raw.table().and_then(|table| self.optional(table, "on"));
@@ -290,8 +294,27 @@ impl Reader<'_> {
             if !self.is_new(scope, key, shape) {
                 continue;
             }
-            let kind = (is_varied && on.is_none(), on.is_some());
-            let components = declare(scope, &key.content, shape, kind);
+            let of = raw.table().and_then(|own| own.get("of"));
+            let constant_along = match of {
+                Some(of) if !is_varied => self.without_variables(scope, of),
+                _ => Vec::new(),
+            };
+            let kept = Kept {
+                is_varied: is_varied && on.is_none(),
+                is_of_boundary: on.is_some(),
+                constant_along,
+            };
+            let components = declare(scope, &key.content, shape, &kept);
+            let is_otherwise = |&component: &usize| {
+                scope.space.component_at(component).constant_along != kept.constant_along
+            };
+            if components.iter().any(is_otherwise) {
+                let message = format!(
+                    "`{}` depends on other variables in another file: what two files call by one name is one thing",
+                    key.content
+                );
+                self.push(Diagnostic::error("other-kind", key.place, message));
+            }
             found.push(Field {
                 name: key.content.clone(),
                 shape,
@@ -301,6 +324,25 @@ impl Reader<'_> {
             });
         }
         found
+    }
+
+    /// The independent variables that `of` leaves out.
+    fn without_variables(&mut self, scope: &Scope, of: &Raw) -> Vec<usize> {
+        let coordinates = &scope.space.coordinates;
+        let mut left: Vec<usize> = (0..coordinates.len()).collect();
+        for text in self.texts(of, "of") {
+            if let Some(axis) = scope.coordinate(&text.content) {
+                left.retain(|own| *own != axis);
+                continue;
+            }
+            let known: Vec<&str> = coordinates.iter().map(|own| own.name.as_str()).collect();
+            let message = format!("`{}` is no independent variable", text.content);
+            self.push(
+                Diagnostic::error("unknown-name", text.place, message)
+                    .hint(format!("these are {}", known.join(", "))),
+            );
+        }
+        left
     }
 
     /// Whether neither the name nor that of a component stands for something already.
@@ -423,13 +465,15 @@ pub(super) fn component_name(name: &str, indices: &[usize]) -> String {
     }
 }
 
+/// What all components of a tensor have in common.
+struct Kept {
+    is_varied: bool,
+    is_of_boundary: bool,
+    constant_along: Vec<usize>,
+}
+
 /// Declares the components of a field, and the tensor made of them.
-fn declare(
-    scope: &mut Scope,
-    name: &str,
-    shape: Shape,
-    (is_varied, is_of_boundary): (bool, bool),
-) -> Vec<usize> {
+fn declare(scope: &mut Scope, name: &str, shape: Shape, kept: &Kept) -> Vec<usize> {
     let d = scope.space.dimensions();
     let own: Vec<(Vec<usize>, usize)> = shape
         .components(d)
@@ -439,8 +483,9 @@ fn declare(
                 name: component_name(name, &indices),
                 tensor: name.to_owned(),
                 multiplicity,
-                is_varied,
-                is_of_boundary,
+                is_varied: kept.is_varied,
+                is_of_boundary: kept.is_of_boundary,
+                constant_along: kept.constant_along.clone(),
             });
             (indices, component)
         })

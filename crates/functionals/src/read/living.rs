@@ -1,7 +1,7 @@
 //! Where fields and data live: one that is declared on a piece of the boundary has no values anywhere else.
 
 use super::Reader;
-use crate::functional::{Equation, Field, Piece};
+use crate::functional::{Equation, Field, Piece, Side};
 use crate::space::Space;
 use crate::tensors::Scope;
 use chetaev_model::raw::Table;
@@ -16,17 +16,42 @@ pub(super) struct Living<'s> {
     space: &'s Space,
     /// The names with their pieces.
     pieces: BTreeMap<String, String>,
+    /// The variables that are constant on flat pieces.
+    across: BTreeMap<String, usize>,
 }
 
 impl<'s> Living<'s> {
-    pub(super) fn of(scope: &'s Scope, data: &[Field], fields: &[Field]) -> Living<'s> {
+    pub(super) fn of(
+        scope: &'s Scope,
+        data: &[Field],
+        fields: &[Field],
+        pieces: &[Piece],
+    ) -> Living<'s> {
         let all = data.iter().chain(fields);
+        let across = pieces.iter().filter_map(|piece| match piece.side {
+            Side::Flat { axis, .. } => Some((piece.name.clone(), axis)),
+            Side::Curved => None,
+        });
         Living {
+            across: across.collect(),
             space: &scope.space,
             pieces: all
                 .filter_map(|own| Some((own.name.clone(), own.on.clone()?)))
                 .collect(),
         }
+    }
+
+    /// A field or data of a flat piece that is differentiated across it: its name, and its piece.
+    fn without_slope(&self, es: &[Expr]) -> Option<(&str, &str)> {
+        let jets = self.space.jets_in(es);
+        jets.iter().find_map(|jet| {
+            let tensor = self.space.component_at(jet.component).tensor;
+            let (name, on) = self.pieces.get_key_value(&tensor)?;
+            let axis = self.across.get(on)?;
+            jet.by
+                .contains(axis)
+                .then_some((name.as_str(), on.as_str()))
+        })
     }
 
     /// A field or data in the expressions that has no values there: its name and its piece. Two pieces with a comma are where they meet.
@@ -70,6 +95,15 @@ impl Reader<'_> {
         text: &Text,
     ) {
         let Some((name, on)) = living.stranger(es, there) else {
+            if let Some((name, on)) = living.without_slope(es) {
+                let message =
+                    format!("`{name}` lives on {on} only, and has no derivative across it");
+                self.push(
+                    Diagnostic::error("lives-elsewhere", within(text, name), message).hint(
+                        format!("declare `{name}` without `on`, so that it lives everywhere"),
+                    ),
+                );
+            }
             return;
         };
         let here = there.map_or_else(

@@ -167,11 +167,18 @@ impl Reader<'_> {
             let node = self.node(&functional.scope, &text, None)?;
             let letters = free_letters(&node);
             let components = functional.scope.components(&node, &letters);
-            if letters.len() != 1 {
+            // With one variable of space a vector has one component.
+            let is_alone = functional.scope.space.dimensions() == 1 && letters.is_empty();
+            if letters.len() != 1 && !is_alone {
                 let message = "the flux is a vector: one index is free";
                 self.push(Diagnostic::error("index-mismatch", text.place, message));
             }
-            let living = Living::of(&functional.scope, &functional.data, &functional.fields);
+            let living = Living::of(
+                &functional.scope,
+                &functional.data,
+                &functional.fields,
+                &functional.pieces,
+            );
             self.lives_there(&living, &components, None, &text);
             Some((text.content, components))
         });

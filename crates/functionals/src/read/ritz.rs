@@ -36,9 +36,18 @@ impl Reader<'_> {
         let given = section.get("values").and_then(Raw::table);
         for (key, raw) in given.iter().flat_map(|own| &own.entries) {
             let special = self.special(key, raw, functional, functional.scope.clone());
-            if let Some(SpecialKind::Symbols(pairs)) = special.map(|own| own.what) {
-                values.extend(pairs);
+            let Some(SpecialKind::Symbols(pairs)) = special.map(|own| own.what) else {
+                continue;
+            };
+            if pairs.iter().any(|(e, _)| is_varied(functional, *e)) {
+                let message = format!("`{}` is varied: Ritz's method finds it", key.content);
+                self.push(
+                    Diagnostic::error("bad-special", key.place, message)
+                        .hint("[ritz] values are those of parameters and data"),
+                );
+                continue;
             }
+            values.extend(pairs);
         }
         let mut asked = Asked {
             degrees,
@@ -145,6 +154,16 @@ impl Reader<'_> {
         }
         found
     }
+}
+
+/// Whether a symbol is a field that is varied, or a derivative of one.
+fn is_varied(functional: &Functional, e: Expr) -> bool {
+    let space = &*functional.space;
+    let jet = space.graph.as_symbol(e).and_then(|own| space.as_jet(own));
+    jet.is_some_and(|jet| {
+        let mut fields = functional.fields.iter();
+        fields.any(|field| field.components.contains(&jet.component))
+    })
 }
 
 /// Whether a point lies in the box; true where the ends of the box are no numbers.

@@ -2,7 +2,7 @@
 
 use super::declare::constants;
 use super::Reader;
-use crate::functional::{Functional, Interval, Side, Solution};
+use crate::functional::{Functional, Interval, Side, Solution, Special, SpecialKind};
 use crate::notation::{parse, Names};
 use crate::tensors::{Scope, Shape};
 use chetaev_model::raw::{Raw, Table};
@@ -69,6 +69,7 @@ impl Reader<'_> {
                 values.extend(self.special(name, raw, functional, scope.clone()));
             }
         }
+        self.all_fields_stated(key, functional, &values);
         let value = match self.optional(table, "value") {
             Some(text) => Some((text.content.clone(), self.scalar(&scope, &text)?)),
             None => None,
@@ -84,6 +85,30 @@ impl Reader<'_> {
             has_pieces: table.get("pieces").is_some(),
             value,
         })
+    }
+
+    /// A solution states every field.
+    fn all_fields_stated(&mut self, key: &Text, functional: &Functional, values: &[Special]) {
+        let space = &*functional.space;
+        let stated = |component: &usize| {
+            let own = space.jet(*component, &[]);
+            let mut pairs = values.iter().flat_map(|special| match &special.what {
+                SpecialKind::Symbols(pairs) => pairs.as_slice(),
+                SpecialKind::Size | SpecialKind::Function { .. } => &[],
+            });
+            pairs.any(|(left, _)| *left == own)
+        };
+        let mut fields = functional.fields.iter();
+        let Some(field) = fields.find(|field| !field.components.iter().all(stated)) else {
+            return;
+        };
+        let name = &field.name;
+        let message = format!(
+            "the solution `{}` does not state the field `{name}`",
+            key.content
+        );
+        let hint = format!("add {name} = \"…\" to [solutions.{}.fields]", key.content);
+        self.push(Diagnostic::error("missing-key", key.place, message).hint(hint));
     }
 
     /// Whether the sizes are those under `when`.

@@ -57,7 +57,7 @@ impl Reader<'_> {
             self.without_normal(&scope, density, &text);
         }
         let pieces = self.pieces(table, &scope, &intervals);
-        let living = Living::of(&scope, &data, &fields);
+        let living = Living::of(&scope, &data, &fields, &pieces);
         self.pieces_exist(table, &living, &pieces);
         self.fixed_are_fields(table, &data, &pieces);
         if let Some((_, density)) = density {

@@ -51,6 +51,8 @@ pub struct Component {
     pub is_varied: bool,
     /// Whether it lives on a piece of the boundary only, so that it may be continued off it at will.
     pub is_of_boundary: bool,
+    /// Independent variables on which it does not depend.
+    pub constant_along: Vec<usize>,
 }
 
 /// A component differentiated.
@@ -192,11 +194,18 @@ impl Space {
             .position(|own| own.name == name)
     }
 
-    /// The symbol of a jet.
+    /// The symbol of a jet; zero where the component does not depend on a variable.
     pub fn jet(&self, component: usize, by: &[usize]) -> Expr {
         let mut by = by.to_vec();
         by.sort_unstable();
-        let name = self.components.borrow()[component].name.clone();
+        let (name, is_constant) = {
+            let own = &self.components.borrow()[component];
+            let is_constant = by.iter().any(|axis| own.constant_along.contains(axis));
+            (own.name.clone(), is_constant)
+        };
+        if is_constant {
+            return self.graph.zero();
+        }
         let suffix: String = by
             .iter()
             .map(|&i| self.coordinates[i].suffix.as_str())
@@ -330,6 +339,28 @@ impl Space {
         }
     }
 
+    /// Puts values in for symbols: what stands for a field, or for a derivative of one, has its derivatives stand for theirs.
+    pub fn put(&self, e: Expr, pairs: &[(Expr, Expr)]) -> Expr {
+        self.replace(e, &|symbol| self.value_among(pairs, symbol))
+    }
+
+    fn value_among(&self, pairs: &[(Expr, Expr)], symbol: Symbol) -> Option<Expr> {
+        let g = &self.graph;
+        let own = g.symbol_expr(symbol);
+        if let Some((_, value)) = pairs.iter().find(|(left, _)| *left == own) {
+            return Some(*value);
+        }
+        let jet = self.as_jet(symbol)?;
+        let above = |(left, value): &(Expr, Expr)| {
+            let of = self.as_jet(g.as_symbol(*left)?)?;
+            let rest = without(&jet.by, &of.by).filter(|_| of.component == jet.component)?;
+            Some((rest, *value))
+        };
+        let all = pairs.iter().filter_map(above);
+        let (rest, value) = all.min_by_key(|(rest, _)| rest.len())?;
+        Some(self.totals(value, &rest))
+    }
+
     /// All jets that occur, in arguments of constitutive functions too.
     pub fn jets_in(&self, es: &[Expr]) -> BTreeSet<Jet> {
         let mut found = BTreeSet::new();
@@ -407,4 +438,14 @@ pub fn pairs(dimensions: usize) -> Vec<(usize, usize)> {
         }
     }
     found
+}
+
+/// Variables without some of them; nothing where these are not among them.
+fn without(all: &[usize], some: &[usize]) -> Option<Vec<usize>> {
+    let mut left = all.to_vec();
+    for by in some {
+        let at = left.iter().position(|own| own == by)?;
+        left.remove(at);
+    }
+    Some(left)
 }

@@ -165,7 +165,11 @@ fn every_row_becomes_that_of_the_linear_theory() {
 #[test]
 fn what_is_given_belongs_to_the_functional() {
     let id = "functional.degeneration#small-displacements";
-    let (word, detail, _) = verdict("pp", id, &[("S_u = { fixed = [\"u\"] }", "S_u = \"0\"")]);
+    let free = [
+        ("S_u = { fixed = [\"u\"] }", "S_u = \"0\""),
+        ("\"4\", \"5\"]", "\"4\"]"),
+    ];
+    let (word, detail, _) = verdict("pp", id, &free);
     assert_eq!(word, "refuted", "{detail}");
     assert!(detail.contains("is given there, and not here"), "{detail}");
 }

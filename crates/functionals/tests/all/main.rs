@@ -22,6 +22,7 @@ mod places;
 mod printed;
 mod propagation;
 mod reference;
+mod relations;
 mod restrictions;
 mod second_variation;
 mod smoothness;

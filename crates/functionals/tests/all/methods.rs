@@ -1,8 +1,9 @@
 //! Ritz's method, the second variation and Lagrange multipliers, against closed solutions and references (S-F16, S-F17).
 
-use crate::table::{loaded_text, row_text, studied_text};
+use crate::table::{loaded_text, read_text, row_text, studied_text};
 use chetaev_functionals::ritz::{approximation, RitzError};
 use chetaev_functionals::{study_at, Pace, Study};
+use chetaev_model::Style;
 use chetaev_symbolic::meter::{Work, UNITS_PER_SECOND};
 use chetaev_symbolic::rational::to_f64;
 
@@ -76,6 +77,65 @@ fn ritz_finds_polynomial_solutions_exactly() {
     let problem = loaded_text("p4p", &text("bar"), &[]);
     let own = approximation(&problem.functional, &problem.ritz.unwrap(), 2).unwrap();
     assert_eq!(own.value.to_string(), "-21/32");
+}
+
+/// A beam that is clamped and guided, 360 x − 264 on it: w = 3 x⁵ − 11 x⁴ + 14 x³ − 13/2 x², so that w(1) = −1/2.
+#[test]
+fn slopes_are_given_without_the_values() {
+    let text = |ends: [&str; 2], more: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 w,xx^2 - (360 x - 264) w\"\n[domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n\
+             [fields]\nw = \"scalar\"\n[boundary]\n\"x = 0\" = {{ fixed = [{}] }}\n\"x = 1\" = {{ fixed = [{}] }}\n[ritz]\ndegrees = [3]\n{more}",
+            ends[0], ends[1]
+        )
+    };
+    let (clamped, guided) = ("\"w\", \"w,n\"", "\"w,n\"");
+    let end = |value: &str| {
+        format!("[ritz.points]\nend = {{ field = \"w\", at = {{ x = \"1\" }}, value = {value} }}\n")
+    };
+    let told = |text: &str| verdict(&studied_text("p4p", text, &[]), "functional.ritz");
+    let (word, detail) = told(&text([clamped, guided], &end("\"-1/2\"")));
+    assert_eq!(word, "proved", "{detail}");
+    let (word, detail) = told(&text([clamped, guided], &end("\"0\"")));
+    assert_eq!(word, "refuted", "{detail}");
+    // w(1/2) = −0.46875: digits that are cut off or rounded are no other value.
+    for (digits, expected) in [
+        ("-0.4687", "proved"),
+        ("-0.4688", "proved"),
+        ("-0.4689", "refuted"),
+    ] {
+        let middle =
+            end(&format!("\"{digits}\", exact = \"false\"")).replace("x = \"1\"", "x = \"1/2\"");
+        let (word, detail) = told(&text([clamped, guided], &middle));
+        assert_eq!(word, expected, "{digits}: {detail}");
+    }
+    // Guided at both ends and held nowhere: the load has a mean, and nothing carries it.
+    let (word, detail) = told(&text([guided, guided], ""));
+    assert_eq!(word, "undecided", "{detail}");
+    assert!(detail.contains("no unique solution"), "{detail}");
+}
+
+#[test]
+fn values_of_ritz_are_none_of_what_is_varied_or_stated() {
+    let text = |values: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"k/2 u,x^2 - u\"\n[domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n\
+             [parameters]\nk = \"1\"\n[boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = \"0\"\n[ritz]\ndegrees = [2]\nvalues = {{ {values} }}\n"
+        )
+    };
+    let (word, detail) = verdict(
+        &studied_text("p4p", &text("k = \"2\""), &[]),
+        "functional.ritz",
+    );
+    assert_eq!(
+        (&word[..], detail.contains("k = 1 is stated")),
+        ("not-applicable", true),
+        "{detail}"
+    );
+    let told = read_text("p4p", &text("u = \"2\""), &[])
+        .diagnostics
+        .render(Style::Plain);
+    assert!(told.contains("`u` is varied"), "{told}");
 }
 
 #[test]

@@ -243,3 +243,24 @@ fn a_piece_may_be_several_faces_of_a_box() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// A field of a face has no derivative across it, and may have one along it.
+#[test]
+fn a_field_of_a_face_is_differentiated_along_it() {
+    let told = |density: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 u,i u,i\"\n[domain]\ncoordinates = [\"x\", \"y\"]\nintervals = {{ x = [0, 1], y = [0, 1] }}\n\
+             [fields]\nu = \"scalar\"\nv = {{ kind = \"scalar\", on = \"y = 1\" }}\n[boundary]\n\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n\"y = 0\" = \"0\"\n\"y = 1\" = \"{density}\"\n"
+        );
+        read_text("p4p", &text, &[])
+            .diagnostics
+            .render(Style::Plain)
+    };
+    let said = told("1/2 v,y^2 + 1/2 (u - v)^2");
+    assert!(
+        said.contains("`v` lives on y = 1 only, and has no derivative across it"),
+        "{said}"
+    );
+    let said = told("1/2 v,x^2 + 1/2 (u - v)^2");
+    assert!(!said.contains("error"), "{said}");
+}

@@ -282,3 +282,29 @@ fn a_parameter_without_a_value_has_no_conjugate_point() {
         verdict.detail()
     );
 }
+
+/// A form without a positive square among the first polynomials, or with an end that is no rational number, is negative all the same: 1 − x for
+/// 2 u u' on both free ends, x for v'' + v = 0 on (0, π).
+#[test]
+fn negative_values_are_found_where_first_squares_vanish() {
+    let string = "1/2 u,x^2 - 1/2 u^2";
+    words(&[
+        ("1/2 u,x^2 + 2 u u,x", "1", [FREE, FREE], "refuted"),
+        (string, "1", [HELD, "\"-1/3 u^2\""], "refuted"),
+        (string, "pi", [HELD, FREE], "refuted"),
+        (string, "pi", [FREE, FREE], "refuted"),
+        (
+            "1/2 u,x^2 + 1/2 v,x^2 - 4 u v",
+            "1",
+            [FREE, FREE],
+            "refuted",
+        ),
+        // The ends are held for one field, and free for the other one.
+        (
+            "1/2 u,x^2 + 1/2 v,x^2 - 1/2 v^2",
+            "pi",
+            [HELD, HELD],
+            "refuted",
+        ),
+    ]);
+}

@@ -133,7 +133,9 @@ fn fields_that_are_free_together_are_named_together() {
         )
         .replace("yields = [\"a\"]", "yields = [\"a\", \"b\"]")
         .replace("[solutions.s]", "b = \"v = w\"\n[solutions.s]");
-    let study = studied_text("p4p", &text, &[]);
+    // A solution would have to state v and w too.
+    let (text, _) = text.split_once("[solutions.s]").unwrap();
+    let study = studied_text("p4p", text, &[]);
     let verdict = crate::table::decided(&study, "functional.euler");
     assert_eq!(verdict.word(), "proved");
     assert!(
@@ -143,4 +145,43 @@ fn fields_that_are_free_together_are_named_together() {
         "{}",
         verdict.detail()
     );
+}
+
+#[test]
+fn a_solution_states_every_field() {
+    let text = rod("1", "-1/3").replace("fields = { u", "fields = { v");
+    let told = crate::table::read_text("p4p", &text, &[]);
+    let said = told.diagnostics.render(chetaev_model::Style::Plain);
+    assert!(said.contains("does not state the field `u`"), "{said}");
+}
+
+/// A string whose density depends on place alone: ρ u_tt = T u_xx and the energy are those of the textbooks.
+#[test]
+fn data_may_depend_on_some_variables_alone() {
+    let text = |rho: &str, equation: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"string\"\ndensity = \"1/2 rho u,t^2 - 1/2 u,x^2\"\nyields = [\"w\"]\nsymmetries = [\"translations\"]\n[domain]\n\
+             coordinates = [\"x\"]\ntime = \"t\"\nintervals = {{ x = [0, 1] }}\n[data]\nrho = {rho}\n[fields]\nu = \"scalar\"\n[boundary]\n\
+             \"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n[equations]\nw = \"{equation}\"\n"
+        )
+    };
+    let word = |text: &str, claim: &str| {
+        let study = studied_text("p4p", text, &[]);
+        let mut all = study.verdicts.iter();
+        let own = all
+            .find(|d| d.full_id() == claim)
+            .map(|d| d.finding.verdict.word());
+        own.unwrap_or("not asked")
+    };
+    let of_place = "{ kind = \"scalar\", of = [\"x\"] }";
+    let wave = text(of_place, "rho u,tt = u,xx");
+    assert_eq!(word(&wave, "functional.euler"), "proved");
+    assert_eq!(word(&wave, "functional.noether#translation-t"), "proved");
+    let both = text("\"scalar\"", "rho u,tt + rho,t u,t = u,xx");
+    assert_eq!(word(&both, "functional.euler"), "proved");
+    assert_eq!(word(&both, "functional.noether#translation-t"), "refuted");
+    let wrong = text("{ kind = \"scalar\", of = [\"z\"] }", "rho u,tt = u,xx");
+    let told = crate::table::read_text("p4p", &wrong, &[]);
+    let said = told.diagnostics.render(chetaev_model::Style::Plain);
+    assert!(said.contains("`z` is no independent variable"), "{said}");
 }

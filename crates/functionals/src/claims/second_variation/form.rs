@@ -237,13 +237,7 @@ impl<'f> Form<'f> {
                 pairs.extend(own.iter().copied());
             }
         }
-        space.replace(space.explicit(e), &|symbol| {
-            let find = |e: Expr| pairs.iter().find(|(l, _)| *l == e).map(|(_, r)| *r);
-            match space.as_jet(symbol) {
-                Some(jet) => Some(space.totals(find(space.jet(jet.component, &[]))?, &jet.by)),
-                None => find(space.graph.symbol_expr(symbol)),
-            }
-        })
+        space.put(space.explicit(e), &pairs)
     }
 }
 

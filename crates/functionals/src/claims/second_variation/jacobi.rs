@@ -209,7 +209,7 @@ pub(super) fn shown(form: &Form<'_>, (lower, upper): (f64, f64)) -> Option<Shown
     let place = |k: usize| lower + (upper - lower) * k as f64 / STEPS as f64;
     let at_end = |zero: f64| {
         if (zero - upper).abs() < SMALL * (upper - lower) {
-            Shown::Degenerate
+            vanishing_at_the_end(form)
         } else {
             Shown::Conjugate(zero)
         }
@@ -221,7 +221,7 @@ pub(super) fn shown(form: &Form<'_>, (lower, upper): (f64, f64)) -> Option<Shown
         let next = scanned.after(&own, (place(k - 1), place(k)))?;
         let (here, there) = (scanned.determinant(&own), scanned.determinant(&next));
         if k == STEPS && there.abs() < SMALL {
-            return Some(Shown::Degenerate);
+            return Some(vanishing_at_the_end(form));
         }
         if here * there < 0.0 {
             let zero = scanned.change_of_sign(&own, (place(k - 1), place(k)))?;
@@ -239,6 +239,17 @@ pub(super) fn shown(form: &Form<'_>, (lower, upper): (f64, f64)) -> Option<Shown
         own = next;
     }
     at_the_end(form, &own, upper)
+}
+
+/// What a zero of det V at the right end shows: where all is free there, a field that vanishes at the end violates its natural condition, so
+/// that the second variation, which is zero for it, is negative beside it.
+fn vanishing_at_the_end(form: &Form<'_>) -> Shown {
+    let is_held = form.ends[1].fixed.iter().any(|fixed| *fixed);
+    if is_held {
+        Shown::Degenerate
+    } else {
+        Shown::NegativeAtEnd
+    }
 }
 
 /// A conjoined basis followed from the left end.

@@ -1,9 +1,10 @@
 //! Polynomials for which the second variation is negative, by exact integration.
 
 use super::form::Form;
-use crate::linear::System;
 use crate::polynomial::{Domain, Polynomial};
+use crate::signs::enclosure;
 use chetaev_symbolic::{rational, Expr, Rational};
+use std::cmp::Ordering;
 
 /// Degrees of the polynomials by which the factors that vanish at the ends are multiplied.
 const DEGREES: [u32; 4] = [0, 2, 6, 10];
@@ -15,22 +16,20 @@ struct Trial {
     r: Vec<Vec<Polynomial>>,
     ends: [Vec<Vec<Polynomial>>; 2],
     places: [Rational; 2],
+    /// Whether variations vanish at such a place because something is held at the end that lies beside it.
+    are_cut: [bool; 2],
     domain: Domain,
 }
 
 /// A variation: one polynomial for each component.
 type Variation = Vec<Polynomial>;
 
-/// A negative value, where one is found between these places; they lie inside the interval, and where they are not its ends the variation
-/// vanishes there.
-pub(super) fn negative(
-    form: &Form<'_>,
-    places: &[Rational; 2],
-    are_ends: [bool; 2],
-) -> Option<Rational> {
+/// A negative value, where one is found, between two numbers. At an end that is held and no rational number the variation vanishes from a place
+/// before on; one that is free is met by rational numbers first, and the value is then enclosed.
+pub(super) fn negative(form: &Form<'_>, places: &[Rational; 2]) -> Option<[f64; 2]> {
     let trial = Trial::new(form, places)?;
     DEGREES.into_iter().find_map(|degree| {
-        let base = trial.base(form, degree, are_ends);
+        let base = trial.base(form, degree);
         let matrix: Vec<Vec<Rational>> = base
             .iter()
             .map(|a| base.iter().map(|b| trial.value(a, b)).collect())
@@ -42,8 +41,7 @@ pub(super) fn negative(
                 sum.add(part, coefficient);
             }
         }
-        let value = trial.value(&v, &v);
-        rational::is_negative(&value).then_some(value)
+        trial.enclosed(form, &v)
     })
 }
 
@@ -55,12 +53,18 @@ impl Trial {
             matrix.iter().map(row).collect()
         };
         let [lower, upper] = places.clone();
+        let exact = [form.interval.lower, form.interval.upper];
+        let is_cut = |at: usize| {
+            let is_held = form.ends[at].fixed.iter().any(|fixed| *fixed);
+            is_held && space.graph.as_number(exact[at]).is_none()
+        };
         Some(Trial {
             p: of(&form.p)?,
             q: of(&form.q)?,
             r: of(&form.r)?,
             ends: [of(&form.ends[0].b)?, of(&form.ends[1].b)?],
             places: places.clone(),
+            are_cut: [is_cut(0), is_cut(1)],
             domain: Domain {
                 intervals: vec![(0, lower, upper)],
                 at: None,
@@ -68,18 +72,15 @@ impl Trial {
         })
     }
 
-    fn base(&self, form: &Form<'_>, degree: u32, are_ends: [bool; 2]) -> Vec<Variation> {
+    fn base(&self, form: &Form<'_>, degree: u32) -> Vec<Variation> {
         let one = rational::integer(1);
         let mut found = Vec::new();
         for component in 0..form.count() {
             let mut factor = Polynomial::constant(one.clone());
-            for (at, end) in form.ends.iter().enumerate() {
-                if end.fixed[component] || !are_ends[at] {
+            for (at, place) in self.places.iter().enumerate() {
+                if form.ends[at].fixed[component] || self.are_cut[at] {
                     let mut line = Polynomial::monomial(vec![1], one.clone());
-                    line.add(
-                        &Polynomial::constant(self.places[at].clone()),
-                        &rational::integer(-1),
-                    );
+                    line.add(&Polynomial::constant(place.clone()), &rational::integer(-1));
                     factor = factor.times(&line);
                 }
             }
@@ -94,58 +95,116 @@ impl Trial {
 
     /// The bilinear form.
     fn value(&self, v: &[Polynomial], w: &[Polynomial]) -> Rational {
+        let mut sum = self.inside(v, w).integral(&self.domain);
+        for (at, place) in self.places.iter().enumerate() {
+            let product = self.at_end(at, v, w).exact(std::slice::from_ref(place));
+            sum = rational::sum(&sum, &product);
+        }
+        sum
+    }
+
+    /// What stands under the integral.
+    fn inside(&self, v: &[Polynomial], w: &[Polynomial]) -> Polynomial {
         let one = rational::integer(1);
-        let mut inside = Polynomial::default();
-        let mut sum = Rational::ZERO;
+        let mut found = Polynomial::default();
         for (a, own) in v.iter().enumerate().filter(|(_, own)| !own.is_zero()) {
             for (b, other) in w.iter().enumerate().filter(|(_, other)| !other.is_zero()) {
                 let (slope, other_slope) = (own.slope(0), other.slope(0));
-                inside.add(&self.p[a][b].times(&slope).times(&other_slope), &one);
-                inside.add(&self.q[a][b].times(&slope).times(other), &one);
-                inside.add(&self.q[b][a].times(own).times(&other_slope), &one);
-                inside.add(&self.r[a][b].times(own).times(other), &one);
-                for (end, place) in self.ends.iter().zip(&self.places) {
-                    let at = std::slice::from_ref(place);
-                    let product = end[a][b].times(own).times(other).exact(at);
-                    sum = rational::sum(&sum, &product);
-                }
+                found.add(&self.p[a][b].times(&slope).times(&other_slope), &one);
+                found.add(&self.q[a][b].times(&slope).times(other), &one);
+                found.add(&self.q[b][a].times(own).times(&other_slope), &one);
+                found.add(&self.r[a][b].times(own).times(other), &one);
             }
         }
-        rational::sum(&sum, &inside.integral(&self.domain))
+        found
+    }
+
+    /// What is added at an end.
+    fn at_end(&self, at: usize, v: &[Polynomial], w: &[Polynomial]) -> Polynomial {
+        let mut found = Polynomial::default();
+        for (own, row) in v.iter().zip(&self.ends[at]) {
+            for (other, b) in w.iter().zip(row) {
+                found.add(&b.times(own).times(other), &rational::integer(1));
+            }
+        }
+        found
+    }
+
+    /// Numbers on both sides of the value of a variation, where it is negative; the variation is continued by zero from the places at which it
+    /// is held.
+    fn enclosed(&self, form: &Form<'_>, v: &[Polynomial]) -> Option<[f64; 2]> {
+        let space = &*form.functional.space;
+        let g = &space.graph;
+        let x = space.coordinates.first()?.expr;
+        let of = |polynomial: Polynomial, place: Expr| {
+            g.substitute(polynomial.expr(space), &[(x, place)])
+        };
+        let exact = [form.interval.lower, form.interval.upper];
+        let whole = self.inside(v, v).primitive(0);
+        let mut terms = Vec::new();
+        for (at, sign) in [(0, -1), (1, 1)] {
+            let place = if self.are_cut[at] {
+                g.number(self.places[at].clone())
+            } else {
+                exact[at]
+            };
+            terms.push(g.mul(&[g.integer(sign), of(whole.clone(), place)]));
+            terms.push(of(self.at_end(at, v, v), place));
+        }
+        let found = enclosure(space, g.add(&terms))?;
+        let is_negative = found.sign() == Some(Ordering::Less);
+        is_negative.then(|| [found.lower().to_f64(), found.upper().to_f64()])
     }
 }
 
-/// A vector with a negative value of the quadratic form, by completing squares.
+/// A vector with a negative value of the quadratic form, by completing squares (J.-L. Lagrange 1759): the vectors of a base are made orthogonal to
+/// those that have positive values, until one has a negative value, or two without value have one together.
 fn descending(mut matrix: Vec<Vec<Rational>>) -> Option<Vec<Rational>> {
     let n = matrix.len();
-    let original = matrix.clone();
-    for k in 0..n {
-        let pivot = matrix[k][k].clone();
-        if rational::is_negative(&pivot) {
-            // The first k components follow from the condition that their rows vanish.
-            let mut block = System::new(k);
-            for (r, row) in original.iter().enumerate().take(k) {
-                for (c, value) in row.iter().enumerate().take(k) {
-                    block.add(r, c, value);
-                }
-                block.add_right(r, &-row[k].clone());
-            }
-            let mut x = block.solution()?.values;
-            x.push(rational::integer(1));
-            x.resize(n, Rational::ZERO);
-            return Some(x);
+    let unit = |k: usize| {
+        (0..n)
+            .map(|i| rational::integer(i64::from(i == k)))
+            .collect()
+    };
+    let mut base: Vec<Vec<Rational>> = (0..n).map(unit).collect();
+    let mut left: Vec<usize> = (0..n).collect();
+    while !left.is_empty() {
+        let value = |k: &usize| matrix[*k][*k].clone();
+        if let Some(&k) = left.iter().find(|k| rational::is_negative(&value(k))) {
+            return Some(base.swap_remove(k));
         }
-        if pivot == Rational::ZERO {
-            return None;
-        }
-        for r in k + 1..n {
-            let factor = &matrix[r][k] / &pivot;
-            let pivot_row = matrix[k].clone();
-            for (own, above) in matrix[r].iter_mut().zip(&pivot_row).skip(k) {
-                let term = rational::product(&factor, above);
-                *own = &*own - &term;
+        let Some(at) = left.iter().position(|k| value(k) != Rational::ZERO) else {
+            return together(&matrix, &base, &left);
+        };
+        let k = left.remove(at);
+        for &r in &left {
+            let factor = &matrix[r][k] / &matrix[k][k];
+            if factor == Rational::ZERO {
+                continue;
             }
+            base[r] = combined(&base[r], &base[k], &-factor.clone());
+            matrix[r] = combined(&matrix[r], &matrix[k], &-factor);
         }
     }
     None
+}
+
+/// Two vectors of which each has the value zero, and their sum or their difference a negative one.
+fn together(
+    matrix: &[Vec<Rational>],
+    base: &[Vec<Rational>],
+    left: &[usize],
+) -> Option<Vec<Rational>> {
+    let pairs = left.iter().flat_map(|&r| left.iter().map(move |&k| (r, k)));
+    let mut pairs = pairs.filter(|(r, k)| matrix[*r][*k] != Rational::ZERO);
+    let (r, k) = pairs.next()?;
+    let is_negative = rational::is_negative(&matrix[r][k]);
+    let sign = rational::integer(if is_negative { 1 } else { -1 });
+    Some(combined(&base[r], &base[k], &sign))
+}
+
+/// `a + factor b`.
+fn combined(a: &[Rational], b: &[Rational], factor: &Rational) -> Vec<Rational> {
+    let term = |(x, y): (&Rational, &Rational)| rational::sum(x, &rational::product(factor, y));
+    a.iter().zip(b).map(term).collect()
 }

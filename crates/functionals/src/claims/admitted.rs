@@ -1,0 +1,310 @@
+//! What two functionals admit to variation: with other variations they are two, whatever their densities.
+
+use super::special_values::{instance, put_in};
+use crate::elimination::{Group, Solved};
+use crate::functional::{Equation, Field, Functional, Piece, Role, Side, Special, SpecialKind};
+use crate::space::Jet;
+use chetaev_symbolic::verdict::Counterexample;
+use chetaev_symbolic::{Expr, Verdict};
+use std::collections::BTreeSet;
+
+/// A functional with special values put in, and with further equations imposed.
+pub(super) struct Admitted<'f> {
+    /// The functional.
+    pub functional: &'f Functional,
+    /// The special values.
+    pub values: &'f [Special],
+    /// Labels of equations that are imposed besides.
+    pub besides: &'f [String],
+}
+
+/// What is given on a piece: components, and whether their slopes across it.
+type Given = BTreeSet<(usize, bool)>;
+
+impl Admitted<'_> {
+    /// Why it has other variations than another functional; nothing where it has the same.
+    pub(super) fn differs_from(&self, other: &Functional) -> Option<Verdict> {
+        self.data(other)
+            .or_else(|| self.equations(other))
+            .or_else(|| self.pieces(other))
+    }
+
+    /// What is a field of one functional, and data of the other.
+    fn data(&self, other: &Functional) -> Option<Verdict> {
+        let own = self.functional;
+        let both = |fields: &[Field], data: &[Field], is_kept: bool| {
+            let is_data = |field: &&Field| data.iter().any(|own| own.name == field.name);
+            let is_left = |field: &&Field| !is_kept || !self.is_put_in(field);
+            let found = fields.iter().filter(is_left).find(is_data);
+            found.map(|field| field.name.clone())
+        };
+        let here = both(&own.fields, &other.data, true)
+            .map(|name| format!("{name} is varied here, and given there"));
+        let there = || {
+            both(&other.fields, &own.data, false)
+                .map(|name| format!("{name} is given here, and varied there"))
+        };
+        here.or_else(there)
+            .map(|said| refuted("what is varied".into(), &said))
+    }
+
+    /// Whether something is put in for all of a field.
+    fn is_put_in(&self, field: &Field) -> bool {
+        let is_put_in = |&component: &usize| self.value(component).is_some();
+        field.components.iter().all(is_put_in)
+    }
+
+    /// What is put in for a component.
+    fn value(&self, component: usize) -> Option<Expr> {
+        let own = self.functional.space.jet(component, &[]);
+        let mut pairs = self.values.iter().flat_map(|special| match &special.what {
+            SpecialKind::Symbols(pairs) => pairs.as_slice(),
+            SpecialKind::Size | SpecialKind::Function { .. } => &[],
+        });
+        pairs
+            .find(|(left, _)| *left == own)
+            .map(|(_, right)| *right)
+    }
+
+    /// What is imposed on one functional, and does not follow from what is imposed on the other.
+    fn equations(&self, other: &Functional) -> Option<Verdict> {
+        let (own, name) = (self.functional, &self.functional.name);
+        let here: Vec<(&Equation, Vec<Expr>)> = self.imposed();
+        let instance = |e: &Expr| instance((own, self.values), other, *e);
+        let there: Vec<(&Equation, Vec<Expr>)> = other
+            .with_role(Role::Imposed)
+            .map(|equation| (equation, equation.residuals.iter().map(instance).collect()))
+            .collect();
+        let mut common = there
+            .iter()
+            .filter(|(_, es)| !self.is_beyond(es, other, own));
+        let beyond = common.find_map(|one| {
+            let verdict = self.follows(one, &here, own)?;
+            Some((one.0, verdict, (&other.name, name)))
+        });
+        let beyond = beyond.or_else(|| {
+            let mut common = here
+                .iter()
+                .filter(|(_, es)| !self.is_beyond(es, own, other));
+            common.find_map(|one| {
+                let verdict = self.follows(one, &there, other)?;
+                Some((one.0, verdict, (name, &other.name)))
+            })
+        });
+        let (equation, verdict, (one, without)) = beyond?;
+        let label = &equation.label;
+        Some(if matches!(verdict, Verdict::Refuted(_)) {
+            let said = format!("({label}) is imposed on {one}, and does not follow from what is imposed on {without}");
+            refuted(format!("({label})"), &said)
+        } else {
+            Verdict::undecided(format!("whether ({label}), which is imposed on {one}, follows from what is imposed on {without} was not decided"))
+        })
+    }
+
+    /// The equations imposed here, with the special values.
+    fn imposed(&self) -> Vec<(&Equation, Vec<Expr>)> {
+        let own = self.functional;
+        let is_imposed = |equation: &&Equation| {
+            equation.role == Role::Imposed || self.besides.contains(&equation.label)
+        };
+        let put = |e: &Expr| put_in(own, self.values, *e);
+        let all = own.equations.iter().filter(is_imposed);
+        all.map(|equation| (equation, equation.residuals.iter().map(put).collect()))
+            .collect()
+    }
+
+    /// Whether equations are about fields that one functional has and the other does not: they determine these.
+    fn is_beyond(&self, es: &[Expr], one: &Functional, other: &Functional) -> bool {
+        let jets = self.functional.space.jets_in(es);
+        one.fields.iter().any(|field| {
+            let has = |own: &Field| own.name == field.name;
+            let is_there = other.fields.iter().chain(&other.data).any(has);
+            !is_there
+                && jets
+                    .iter()
+                    .any(|jet| field.components.contains(&jet.component))
+        })
+    }
+
+    /// The verdict on an equation where others hold; nothing where it follows, also from what is given on the piece.
+    fn follows(
+        &self,
+        (equation, residuals): &(&Equation, Vec<Expr>),
+        others: &[(&Equation, Vec<Expr>)],
+        of: &Functional,
+    ) -> Option<Verdict> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let same = others.iter().find(|(own, _)| own.label == equation.label);
+        if same.is_some_and(|(_, own)| {
+            let differences = own.iter().zip(residuals).map(|(a, b)| g.sub(*a, *b));
+            own.len() == residuals.len() && space.vanish(&differences.collect::<Vec<_>>())
+        }) {
+            return None;
+        }
+        let piece = equation.on.as_deref().and_then(|on| of.piece(on));
+        if piece.is_some_and(|piece| residuals.iter().all(|&e| self.is_given(piece, e))) {
+            return None;
+        }
+        let groups = others
+            .iter()
+            .filter(|(own, _)| own.on.is_none() || own.on == equation.on)
+            .map(|(own, es)| Group {
+                label: own.label.clone(),
+                equations: es.clone(),
+            });
+        let solved = Solved::new(space).with(&groups.collect::<Vec<_>>());
+        let mut verdicts = residuals.iter().map(|&e| solved.verdict(e));
+        verdicts.find(|verdict| !matches!(verdict, Verdict::Proved(_)))
+    }
+
+    /// Whether all fields in an expression are given on a piece.
+    fn is_given(&self, piece: &Piece, e: Expr) -> bool {
+        let space = &*self.functional.space;
+        let mut jets = space.jets_in(&[e]).into_iter().peekable();
+        let is_field = |jet: &Jet| space.component_at(jet.component).is_varied;
+        jets.peek().is_some()
+            && jets.all(|jet| {
+                !is_field(&jet)
+                    || jet.by.is_empty() && piece.fixed.contains(&(jet.component, false))
+            })
+    }
+
+    /// What is given on a piece by one functional only.
+    fn pieces(&self, other: &Functional) -> Option<Verdict> {
+        for own in &self.functional.pieces {
+            let Some(piece) = other.piece(&own.name) else {
+                let said = format!("`{}` has no piece {}", other.name, own.name);
+                return Some(Verdict::undecided(said));
+            };
+            let Some(here) = self.given(own) else {
+                return Some(Verdict::undecided(format!(
+                    "what is given on {} was not compared: other fields stand for those that are given",
+                    own.name
+                )));
+            };
+            let there: Given = piece.fixed.iter().copied().collect();
+            let is_of_other = |component: usize| {
+                let mut fields = other.fields.iter();
+                fields.any(|field| field.components.contains(&component))
+            };
+            let mut here_only = here
+                .difference(&there)
+                .filter(|own| is_of_other(own.0) && !self.is_imposed_on(piece, **own, other));
+            let mut there_only = there
+                .difference(&here)
+                .filter(|given| !self.is_imposed_here(own, **given));
+            let found = here_only
+                .next()
+                .map(|given| (*given, "is given here, and not there"));
+            let found = found.or_else(|| {
+                let given = there_only.next()?;
+                Some((*given, "is given there, and not here"))
+            });
+            if let Some((given, said)) = found {
+                return Some(self.given_otherwise(own, given, said));
+            }
+        }
+        None
+    }
+
+    fn given_otherwise(
+        &self,
+        piece: &Piece,
+        (component, is_slope): (usize, bool),
+        said: &str,
+    ) -> Verdict {
+        let name = self.functional.space.component_at(component).name;
+        let slope = if is_slope {
+            "the normal derivative of "
+        } else {
+            ""
+        };
+        let quantity = format!("{slope}{name} on {}", piece.name);
+        let said = format!("{quantity} {said}");
+        refuted(quantity, &said)
+    }
+
+    /// What is given on a piece of this functional when the special values are put in; nothing where that is another condition.
+    fn given(&self, piece: &Piece) -> Option<Given> {
+        let (values, kept): (Vec<_>, Vec<_>) = piece
+            .fixed
+            .iter()
+            .partition(|(component, _)| self.value(*component).is_some());
+        let mut found: Given = kept.into_iter().collect();
+        for (component, is_slope) in values {
+            let value = self.value(component)?;
+            found.extend(self.given_by(piece, value, is_slope, &found)?);
+        }
+        Some(found)
+    }
+
+    /// What is given where a function of other fields, or its slope, is: nothing new for numbers and data; a field for its multiples; the slope
+    /// of a field for the derivative across the piece, where derivatives along it are given with the field.
+    fn given_by(&self, piece: &Piece, value: Expr, is_slope: bool, found: &Given) -> Option<Given> {
+        let space = &*self.functional.space;
+        let is_varied = |jet: &Jet| space.component_at(jet.component).is_varied;
+        let jets: Vec<Jet> = space
+            .jets_in(&[value])
+            .into_iter()
+            .filter(is_varied)
+            .collect();
+        let jet = match &jets[..] {
+            [] => return Some(Given::new()),
+            [jet] => jet,
+            _ => return None,
+        };
+        space.graph.as_number(space.partial(value, jet))?;
+        let is_with_field = found.contains(&(jet.component, false));
+        match (&jet.by[..], is_slope, &piece.side) {
+            ([], ..) => Some(Given::from([(jet.component, is_slope)])),
+            ([by], false, Side::Flat { axis, .. }) if by == axis => {
+                Some(Given::from([(jet.component, true)]))
+            }
+            ([_], false, Side::Flat { .. }) if is_with_field => Some(Given::new()),
+            ([_], false, Side::Curved) if is_with_field || space.dimensions() == 1 => {
+                Some(Given::from([(jet.component, true)]))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether an equation that another functional imposes on a piece says what is given.
+    fn is_imposed_on(&self, piece: &Piece, given: (usize, bool), other: &Functional) -> bool {
+        let mut all = other.with_role(Role::Imposed);
+        all.any(|own| own.on.as_deref() == Some(&piece.name) && self.says(&own.residuals, given))
+    }
+
+    /// Whether an equation that is imposed here says what is given.
+    fn is_imposed_here(&self, piece: &Piece, given: (usize, bool)) -> bool {
+        let mut all = self.imposed().into_iter();
+        all.any(|(own, es)| own.on.as_deref() == Some(&piece.name) && self.says(&es, given))
+    }
+
+    /// Whether a component minus data is among expressions.
+    fn says(&self, es: &[Expr], (component, is_slope): (usize, bool)) -> bool {
+        let space = &*self.functional.space;
+        let is_varied = |jet: &Jet| space.component_at(jet.component).is_varied;
+        !is_slope
+            && es.iter().any(|&e| {
+                let jets = space.jets_in(&[e]);
+                let jets: Vec<&Jet> = jets.iter().filter(|jet| is_varied(jet)).collect();
+                match jets[..] {
+                    [jet] => {
+                        let is_own = jet.component == component && jet.by.is_empty();
+                        is_own && space.graph.as_number(space.partial(e, jet)).is_some()
+                    }
+                    _ => false,
+                }
+            })
+    }
+}
+
+fn refuted(quantity: String, said: &str) -> Verdict {
+    Verdict::Refuted(Counterexample {
+        point: Vec::new(),
+        residual: ("1".into(), "1".into()),
+        quantity,
+        detail: format!("{said}, so that the variations are others"),
+    })
+}

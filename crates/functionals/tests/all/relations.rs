@@ -1,0 +1,190 @@
+//! Two functionals beside each other: special values reach derivatives, and what is imposed or given on the boundary belongs to both.
+
+use crate::half_known::studied;
+use crate::table::decided;
+
+/// A functional on 0 < x < 1.
+#[derive(Clone, Copy)]
+struct Text<'a> {
+    density: &'a str,
+    fields: &'a [&'a str],
+    ends: [&'a str; 2],
+    imposed: &'a str,
+    equations: &'a str,
+    more: &'a str,
+}
+
+const FREE: &str = "\"0\"";
+
+impl<'a> Text<'a> {
+    fn of(density: &'a str, fields: &'a [&'a str]) -> Text<'a> {
+        Text {
+            density,
+            fields,
+            ends: [FREE; 2],
+            imposed: "",
+            equations: "",
+            more: "",
+        }
+    }
+
+    fn written(&self, name: &str) -> String {
+        let fields: Vec<String> = self
+            .fields
+            .iter()
+            .map(|f| format!("{f} = \"scalar\"\n"))
+            .collect();
+        format!(
+            "kind = \"functional\"\nname = \"{name}\"\ndensity = \"{}\"\nimposed = [{}]\n[domain]\ncoordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n\
+             [data]\nf = \"scalar\"\n[fields]\n{}[boundary]\n\"x = 0\" = {}\n\"x = 1\" = {}\n[equations]\n{}\n{}",
+            self.density,
+            self.imposed,
+            fields.concat(),
+            self.ends[0],
+            self.ends[1],
+            self.equations,
+            self.more
+        )
+    }
+}
+
+#[track_caller]
+fn related(claim: &str, own: Text<'_>, other: Text<'_>, (word, part): (&str, &str)) {
+    let study = studied(&own.written("own"), &other.written("other"));
+    let verdict = decided(&study, claim);
+    assert_eq!(verdict.word(), word, "{}", verdict.detail());
+    assert!(verdict.detail().contains(part), "{}", verdict.detail());
+}
+
+#[track_caller]
+fn becomes(at: &str, own: Text<'_>, other: Text<'_>, expected: (&str, &str)) {
+    let more = format!("[degenerations.it]\nbecomes = \"other.toml\"\nat = {{ {at} }}\n");
+    let own = Text { more: &more, ..own };
+    related("functional.degeneration", own, other, expected);
+}
+
+#[track_caller]
+fn descends(imposing: &str, own: Text<'_>, other: Text<'_>, expected: (&str, &str)) {
+    let more = format!("[descent]\nfrom = \"other.toml\"\nimposing = [{imposing}]\n");
+    let own = Text { more: &more, ..own };
+    related("functional.descent", own, other, expected);
+}
+
+#[test]
+fn what_stands_for_a_field_stands_in_its_derivatives() {
+    let own = Text::of("1/2 s,x^2 + s u + u,x^2", &["s", "u"]);
+    let of_u = |density| Text::of(density, &["u"]);
+    becomes("s = \"0\"", own, of_u("u,x^2"), ("proved", ""));
+    let wrong = Text::of("1/2 s,x^2 + u,x^2", &["s", "u"]);
+    becomes("s = \"0\"", own, wrong, ("refuted", ""));
+    becomes("s = \"u\"", own, of_u("3/2 u,x^2 + u^2"), ("proved", ""));
+    let second = Text::of("1/2 s,xx^2 + u,x^2", &["s", "u"]);
+    becomes(
+        "s = \"x u\"",
+        second,
+        of_u("1/2 (2 u,x + x u,xx)^2 + u,x^2"),
+        ("proved", ""),
+    );
+}
+
+/// Timoshenko's beam without shear is Euler's and Bernoulli's: where the angle is given, the slope is.
+#[test]
+fn what_is_given_of_a_field_is_given_of_what_stands_for_it() {
+    let beam = Text::of("1/2 psi,x^2 + 1/2 (w,x + psi)^2 - f w", &["w", "psi"]);
+    let slender = Text::of("1/2 w,xx^2 - f w", &["w"]);
+    let at = "psi = \"-w,x\"";
+    becomes(at, beam, slender, ("proved", ""));
+    let clamped = Text {
+        ends: ["{ fixed = [\"w\", \"psi\"] }", FREE],
+        ..beam
+    };
+    let held = |ends| Text { ends, ..slender };
+    becomes(
+        at,
+        clamped,
+        held(["{ fixed = [\"w\", \"w,n\"] }", FREE]),
+        ("proved", ""),
+    );
+    becomes(
+        at,
+        clamped,
+        held(["{ fixed = [\"w\"] }", FREE]),
+        ("refuted", "is given here, and not there"),
+    );
+    let supported = Text {
+        ends: ["{ fixed = [\"w\"] }", FREE],
+        ..beam
+    };
+    becomes(
+        at,
+        supported,
+        held(["{ fixed = [\"w\", \"w,n\"] }", FREE]),
+        ("refuted", "is given there, and not here"),
+    );
+}
+
+#[test]
+fn what_is_imposed_on_one_is_imposed_on_the_other() {
+    let free = Text::of("1/2 u,x^2 + 1/2 v,x^2 - f u", &["u", "v"]);
+    let stiff = Text {
+        imposed: "\"q\"",
+        equations: "q = \"v,x = 0\"",
+        ..Text::of("1/2 u,x^2 - f u", &["u", "v"])
+    };
+    let all = Text {
+        imposed: "\"q\"",
+        equations: "q = \"v,x = 0\"",
+        ..free
+    };
+    becomes("", all, stiff, ("proved", "modulo (q)"));
+    becomes("", free, stiff, ("refuted", "(q) is imposed on other"));
+    let unheld = Text::of("1/2 u,x^2 - f u", &["u", "v"]);
+    becomes("", all, unheld, ("refuted", "(q) is imposed on own"));
+    // The same in other words.
+    let twice = Text {
+        equations: "q = \"2 v,x = 0\"",
+        ..stiff
+    };
+    becomes("", all, twice, ("proved", "modulo (q)"));
+}
+
+#[test]
+fn what_is_imposed_on_the_way_down_is_imposed_below() {
+    let q = "q = { equation = \"u,xx + f = 0\" }";
+    let up = Text {
+        equations: q,
+        ..Text::of("1/2 u,x^2 - f u", &["u"])
+    };
+    descends("\"q\"", up, up, ("refuted", "(q) is imposed on other"));
+    let below = Text {
+        imposed: "\"q\"",
+        ..up
+    };
+    descends("\"q\"", below, up, ("proved", ""));
+    // From Hu and Washizu to Hellinger and Reissner by the law of the material: e = s.
+    let three = Text {
+        equations: "m = \"s - e = 0\"",
+        ..Text::of("1/2 e^2 - s (e - u,x) - f u", &["u", "e", "s"])
+    };
+    let two = Text::of("s u,x - 1/2 s^2 - f u", &["u", "s"]);
+    descends("\"m\"", two, three, ("proved", ""));
+    let given = ["{ fixed = [\"u\"] }", FREE];
+    descends(
+        "\"m\"",
+        two,
+        Text {
+            ends: given,
+            ..three
+        },
+        ("refuted", "is given here, and not there"),
+    );
+    descends(
+        "\"m\"",
+        Text { ends: given, ..two },
+        Text {
+            ends: given,
+            ..three
+        },
+        ("proved", ""),
+    );
+}
