@@ -38,14 +38,24 @@ impl Admitted<'_> {
             let found = fields.iter().filter(is_left).find(is_data);
             found.map(|field| field.name.clone())
         };
+        let (one, two) = self.names(other);
         let here = both(&own.fields, &other.data, true)
-            .map(|name| format!("{name} is varied here, and given there"));
+            .map(|name| format!("{name} is varied in {one}, and given in {two}"));
         let there = || {
             both(&other.fields, &own.data, false)
-                .map(|name| format!("{name} is given here, and varied there"))
+                .map(|name| format!("{name} is given in {one}, and varied in {two}"))
         };
         here.or_else(there)
             .map(|said| refuted("what is varied".into(), &said))
+    }
+
+    /// What both are called.
+    fn names(&self, other: &Functional) -> (String, String) {
+        let (own, name) = (&self.functional.name, &other.name);
+        if own == name {
+            return (own.clone(), format!("the other {name}"));
+        }
+        (own.clone(), name.clone())
     }
 
     /// Whether something is put in for all of a field.
@@ -68,7 +78,8 @@ impl Admitted<'_> {
 
     /// What is imposed on one functional, and does not follow from what is imposed on the other.
     fn equations(&self, other: &Functional) -> Option<Verdict> {
-        let (own, name) = (self.functional, &self.functional.name);
+        let own = self.functional;
+        let (name, other_name) = self.names(other);
         let here: Vec<(&Equation, Vec<Expr>)> = self.imposed();
         let instance = |e: &Expr| instance((own, self.values), other, *e);
         let there: Vec<(&Equation, Vec<Expr>)> = other
@@ -80,7 +91,7 @@ impl Admitted<'_> {
             .filter(|(_, es)| !self.is_beyond(es, other, own));
         let beyond = common.find_map(|one| {
             let verdict = self.follows(one, &here, own)?;
-            Some((one.0, verdict, (&other.name, name)))
+            Some((one.0, verdict, (&other_name, &name)))
         });
         let beyond = beyond.or_else(|| {
             let mut common = here
@@ -88,16 +99,16 @@ impl Admitted<'_> {
                 .filter(|(_, es)| !self.is_beyond(es, own, other));
             common.find_map(|one| {
                 let verdict = self.follows(one, &there, other)?;
-                Some((one.0, verdict, (name, &other.name)))
+                Some((one.0, verdict, (&name, &other_name)))
             })
         });
         let (equation, verdict, (one, without)) = beyond?;
         let label = &equation.label;
         Some(if matches!(verdict, Verdict::Refuted(_)) {
-            let said = format!("({label}) is imposed on {one}, and does not follow from what is imposed on {without}");
+            let said = format!("({label}) is imposed in {one}, and does not follow from what is imposed in {without}");
             refuted(format!("({label})"), &said)
         } else {
-            Verdict::undecided(format!("whether ({label}), which is imposed on {one}, follows from what is imposed on {without} was not decided"))
+            Verdict::undecided(format!("whether ({label}), which is imposed in {one}, follows from what is imposed in {without} was not decided"))
         })
     }
 
@@ -194,15 +205,12 @@ impl Admitted<'_> {
             let mut there_only = there
                 .difference(&here)
                 .filter(|given| !self.is_imposed_here(own, **given));
-            let found = here_only
-                .next()
-                .map(|given| (*given, "is given here, and not there"));
-            let found = found.or_else(|| {
-                let given = there_only.next()?;
-                Some((*given, "is given there, and not here"))
-            });
-            if let Some((given, said)) = found {
-                return Some(self.given_otherwise(own, given, said));
+            let (one, two) = self.names(other);
+            if let Some(given) = here_only.next() {
+                return Some(self.given_otherwise(own, *given, (&one, &two)));
+            }
+            if let Some(given) = there_only.next() {
+                return Some(self.given_otherwise(own, *given, (&two, &one)));
             }
         }
         None
@@ -212,7 +220,7 @@ impl Admitted<'_> {
         &self,
         piece: &Piece,
         (component, is_slope): (usize, bool),
-        said: &str,
+        (one, two): (&str, &str),
     ) -> Verdict {
         let name = self.functional.space.component_at(component).name;
         let slope = if is_slope {
@@ -221,7 +229,7 @@ impl Admitted<'_> {
             ""
         };
         let quantity = format!("{slope}{name} on {}", piece.name);
-        let said = format!("{quantity} {said}");
+        let said = format!("{quantity} is given in {one}, and not in {two}");
         refuted(quantity, &said)
     }
 

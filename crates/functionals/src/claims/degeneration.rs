@@ -160,6 +160,15 @@ impl Comparison<'_> {
             let labels: Vec<String> = imposed.iter().map(|own| own.label.clone()).collect();
             let above = equations(self.functional, on, STATED).into_iter();
             imposed.extend(above.filter(|own| labels.contains(&own.label)));
+        } else {
+            let labels: Vec<String> = imposed.iter().map(|own| own.label.clone()).collect();
+            let own = equations(self.functional, on, &[Role::Imposed]).into_iter();
+            let own = own.filter(|own| !labels.contains(&own.label));
+            imposed.extend(own.map(|mut group| {
+                let put = |e: &mut Expr| *e = put_in(self.functional, self.values, *e);
+                group.equations.iter_mut().for_each(put);
+                group
+            }));
         }
         let stated = if self.is_descent && on.is_some() {
             equations(self.other, on, &[Role::Imposed, Role::Yielded])

@@ -171,7 +171,10 @@ fn what_is_given_belongs_to_the_functional() {
     ];
     let (word, detail, _) = verdict("pp", id, &free);
     assert_eq!(word, "refuted", "{detail}");
-    assert!(detail.contains("is given there, and not here"), "{detail}");
+    assert!(
+        detail.contains("is given in pp-small, and not in pp"),
+        "{detail}"
+    );
 }
 
 #[test]

@@ -361,3 +361,24 @@ fn a_gradient_is_that_of_the_value_and_of_some_function() {
         );
     }
 }
+
+/// The load of a plate bends it near one place alone, so that a wrong condition on a free edge is refuted whatever holds at the corners.
+#[test]
+fn wrong_conditions_of_a_free_plate_are_refuted() {
+    let path = format!(
+        "{}/../../gallery/fields/plate/model.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let right = "shear-right = { equation = \"w,xxx + (2 - nu) w,xyy = 0\"";
+    let wrong = [
+        "shear-right = { equation = \"w,xxx + w,xyy = 0\"",
+        "shear-right = { equation = \"w,xxx + (2 + nu) w,xyy = 0\"",
+    ];
+    for wrong in wrong {
+        assert!(text.contains(right));
+        let study = studied_text("p4p", &text.replace(right, wrong), &[]);
+        let verdict = crate::table::decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), "refuted", "{wrong}: {}", verdict.detail());
+    }
+}

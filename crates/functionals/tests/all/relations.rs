@@ -109,7 +109,7 @@ fn what_is_given_of_a_field_is_given_of_what_stands_for_it() {
         at,
         clamped,
         held(["{ fixed = [\"w\"] }", FREE]),
-        ("refuted", "is given here, and not there"),
+        ("refuted", "is given in own, and not in other"),
     );
     let supported = Text {
         ends: ["{ fixed = [\"w\"] }", FREE],
@@ -119,7 +119,7 @@ fn what_is_given_of_a_field_is_given_of_what_stands_for_it() {
         at,
         supported,
         held(["{ fixed = [\"w\", \"w,n\"] }", FREE]),
-        ("refuted", "is given there, and not here"),
+        ("refuted", "is given in other, and not in own"),
     );
 }
 
@@ -137,9 +137,21 @@ fn what_is_imposed_on_one_is_imposed_on_the_other() {
         ..free
     };
     becomes("", all, stiff, ("proved", "modulo (q)"));
-    becomes("", free, stiff, ("refuted", "(q) is imposed on other"));
+    becomes("", free, stiff, ("refuted", "(q) is imposed in other"));
     let unheld = Text::of("1/2 u,x^2 - f u", &["u", "v"]);
-    becomes("", all, unheld, ("refuted", "(q) is imposed on own"));
+    becomes("", all, unheld, ("refuted", "(q) is imposed in own"));
+    // What determines a field that is not there any more is no other variation.
+    let two = Text {
+        imposed: "\"h\"",
+        equations: "h = \"s = u,x\"",
+        ..Text::of("s u,x - 1/2 s^2", &["s", "u"])
+    };
+    becomes(
+        "",
+        two,
+        Text::of("1/2 u,x^2", &["u"]),
+        ("proved", "modulo (h)"),
+    );
     // The same in other words.
     let twice = Text {
         equations: "q = \"2 v,x = 0\"",
@@ -155,7 +167,7 @@ fn what_is_imposed_on_the_way_down_is_imposed_below() {
         equations: q,
         ..Text::of("1/2 u,x^2 - f u", &["u"])
     };
-    descends("\"q\"", up, up, ("refuted", "(q) is imposed on other"));
+    descends("\"q\"", up, up, ("refuted", "(q) is imposed in other"));
     let below = Text {
         imposed: "\"q\"",
         ..up
@@ -176,7 +188,7 @@ fn what_is_imposed_on_the_way_down_is_imposed_below() {
             ends: given,
             ..three
         },
-        ("refuted", "is given here, and not there"),
+        ("refuted", "is given in other, and not in own"),
     );
     descends(
         "\"m\"",

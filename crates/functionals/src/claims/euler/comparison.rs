@@ -267,7 +267,8 @@ impl<'f> Comparison<'f> {
                     );
                     let own = at_edge(functional, one, other, component);
                     let found = self.judge(what, &own, &stated, &[]);
-                    judged.push(self.as_whole(found, &own, System::Stated, None));
+                    let on = format!("{}, {}", one.piece, other.piece);
+                    judged.push(self.as_whole(found, &own, System::Stated, Some(&on)));
                 }
             }
         }

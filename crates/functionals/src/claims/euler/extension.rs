@@ -201,14 +201,15 @@ impl<'f> Comparison<'f> {
     fn has_data(&self, es: &[Expr], system: System, on: Option<&str>) -> bool {
         let functional = self.functional;
         let is_line = functional.space.coordinates.len() == 1;
+        let meet = |on: &str| on.contains(',');
+        let mut equations = functional.equations.iter();
+        let has_corners = equations.any(|own| own.on.as_deref().is_some_and(meet));
+        if has_corners && on.is_some_and(meet) {
+            return false;
+        }
         let known = self.extended.borrow().get(&system).copied();
         if let Some(known) = known.filter(|_| !is_line) {
             return known;
-        }
-        // What holds where two pieces meet is carried along them.
-        let mut equations = functional.equations.iter();
-        if equations.any(|own| own.on.as_ref().is_some_and(|on| on.contains(','))) {
-            return false;
         }
         let own = self.whole(system, es, on);
         // What restricts parameters somewhere restricts them everywhere.
@@ -216,9 +217,28 @@ impl<'f> Comparison<'f> {
         if own.inside.iter().chain(own.conditions()).any(restricts) {
             return false;
         }
-        let found = self.is_local(system, &own) || self.is_continued(system, &own);
+        let found = self.is_apart_from_corners(&own)
+            && (self.is_local(system, &own) || self.is_continued(system, &own));
         self.extended.borrow_mut().insert(system, found);
         found
+    }
+
+    /// Whether what holds where two pieces meet does not matter at other places. In general it is carried along the pieces; where it holds at rest,
+    /// and so do all conditions, fields that vanish but near one place satisfy it.
+    fn is_apart_from_corners(&self, own: &Whole) -> bool {
+        let equations = self.functional.equations.iter();
+        let stated = equations.filter(|own| own.on.as_ref().is_some_and(|on| on.contains(',')));
+        let stated: Vec<Expr> = stated
+            .flat_map(|own| own.residuals.iter().copied())
+            .collect();
+        if stated.is_empty() {
+            return true;
+        }
+        let derived = self.variation.corners.iter().map(|corner| corner.value);
+        let corners = stated.into_iter().chain(derived);
+        let conditions = own.conditions().map(|own| own.e);
+        let mut all = corners.chain(conditions);
+        all.all(|e| self.is_zero_at_rest(e))
     }
 
     /// The equations and conditions of a system, where expressions are looked at on a piece, or inside.
