@@ -263,8 +263,9 @@ pub(crate) trait Statement {
         false
     }
 
-    /// Whether it holds where a determinant vanishes, given whether it holds on one side of that value.
-    fn at_border(&self, _holds_beside: bool) -> Option<bool> {
+    /// Whether it holds at a value between two intervals, given whether it holds on one side of that value, and what becomes of the eigenvalues
+    /// there: nothing where that value only ends what is admitted.
+    fn at_border(&self, _holds_beside: bool, _crossing: Option<Crossing>) -> Option<bool> {
         None
     }
 
@@ -355,6 +356,14 @@ fn instead(
             ),
             counterexample: None,
         },
+        Ok(Verdict::Refuted(own)) => Verdict::Refuted(Counterexample {
+            detail: format!(
+                "{} for {}; nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed",
+                own.detail,
+                stated_value(about, symbol)
+            ),
+            ..own
+        }),
         Ok(found) if !matches!(found, Verdict::Undecided { .. }) => found,
         _ => Verdict::undecided(format!(
             "the boundaries of stability in {name} were not enclosed"
@@ -640,10 +649,20 @@ impl Pieces {
             let meets = |own: &&crate::hurwitz::Boundary| {
                 own.root.low <= root.high && root.low <= own.root.high
             };
-            let mut own = ranges.boundaries.iter().filter(meets);
-            let is_finite = own.all(|b| b.crossing != Crossing::Infinity);
+            let own: Vec<Crossing> = ranges
+                .boundaries
+                .iter()
+                .filter(meets)
+                .map(|own| own.crossing)
+                .collect();
+            let crossing = match own[..] {
+                [] => None,
+                [one] => Some(one),
+                _ => Some(Crossing::Touching),
+            };
+            let is_finite = !own.contains(&Crossing::Infinity);
             let beside = is_finite && self.pieces.iter().any(holds);
-            border.holds = statement.at_border(beside);
+            border.holds = statement.at_border(beside, crossing);
             let is_rational = root.low == root.high;
             if border.holds.is_none() && (is_rational || statement.looks_at_boundaries()) {
                 border.know(exact.and_then(exactly));

@@ -2,6 +2,7 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::evidence::{counted, unstable};
+use crate::hurwitz::Crossing;
 use crate::multiplicity::defects;
 use crate::question::Place;
 use chetaev_symbolic::verdict::Counterexample;
@@ -42,8 +43,13 @@ impl Statement for Asymptotic {
         }
     }
 
-    fn at_border(&self, _: bool) -> Option<bool> {
-        Some(false)
+    fn at_border(&self, holds_beside: bool, crossing: Option<Crossing>) -> Option<bool> {
+        match crossing {
+            None => holds_beside.then_some(true),
+            Some(Crossing::Pair | Crossing::Collision) => Some(false),
+            // A zero may be that of a family that is there for this value alone.
+            Some(Crossing::Zero | Crossing::Infinity | Crossing::Touching) => None,
+        }
     }
 
     fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample {

@@ -2,6 +2,7 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::evidence::unstable;
+use crate::hurwitz::Crossing;
 use crate::question::Place;
 use chetaev_symbolic::verdict::Counterexample;
 use dashu_ratio::RBig;
@@ -35,7 +36,7 @@ impl Statement for Spectral {
         }
     }
 
-    fn at_border(&self, holds_beside: bool) -> Option<bool> {
+    fn at_border(&self, holds_beside: bool, _: Option<Crossing>) -> Option<bool> {
         // Eigenvalues are continuous: at the end of an interval in which none is right of the axis none is.
         holds_beside.then_some(true)
     }

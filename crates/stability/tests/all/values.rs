@@ -38,7 +38,7 @@ fn a_single_value_is_not_swept_away() {
     assert_eq!(case.said("stability.linear", "s"), "p = 0");
 }
 
-/// x'' = −x' − (p − 10³⁰)(p − 1) x: stable outside of the interval from 1 to 10³⁰.
+/// x'' = −x' − (p − 10³⁰)(p − 1) x: stable outside of the interval from 1 to 10³⁰, and at its ends, where all x are at rest.
 #[test]
 fn values_far_apart_are_all_found() {
     let case = oscillator("2", "L = \"1/2 x'^2 - 1/2 (p - 1e30) (p - 1) x^2\"", "-x'");
@@ -49,10 +49,7 @@ fn values_far_apart_are_all_found() {
         .collect();
     assert_eq!(values.len(), 2, "{said}");
     assert!((values[0] - 1.0).abs() < 1e-15 && (values[1] / 1e30 - 1.0).abs() < 1e-15);
-    assert!(
-        said.starts_with("p < ") && said.contains("or p > "),
-        "{said}"
-    );
+    assert!(said.starts_with("p <= 1 or p > "), "{said}");
     // Beyond a single critical value too.
     let far = oscillator("2e30", "L = \"1/2 x'^2 - 1/2 (p - 1e30) x^2\"", "0");
     let said = far.said("stability.linear", "s");
@@ -414,4 +411,31 @@ other = "(x - 1)^2 + y^2 + z^2 = 1"
     let found = case.verdict_of_all("equilibrium.states");
     let said = found.detail();
     assert!(said.contains("2 states of rest: x = 1/2"), "{said}");
+}
+
+/// Two oscillators with dissipation at rest in the origin, over p with what is assumed of it.
+fn damped(assumed: &str, potential: &str, forces: [&str; 2]) -> Case {
+    Case::new(&format!(
+        "coordinates = [\"x\", \"y\"]\nassumptions = [{assumed}]\nparameters = {{ p = 0.5 }}\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\nV = \"{potential}\"\n\
+         [forces]\nx = \"{}\"\ny = \"{}\"\n[steady.s]\nx = 0\ny = 0\nover = \"p\"\n",
+        forces[0], forces[1]
+    ))
+}
+
+/// What ends the admitted values of a parameter changes no eigenvalue, and a zero of a family that is there for one value alone is none of others.
+#[test]
+fn ends_and_single_values_belong_to_what_holds_there() {
+    let stiff = "1/2 (1 + p) (x^2 + y^2)";
+    let verdict = damped("\"p >= 0\"", stiff, ["-x'", "-y'"]).verdict("stability.asymptotic", "s");
+    assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+    // For p = 0 all y are at rest, and the eigenvalue −1 is left beside 0.
+    let family = damped("", "1/2 x^2 + 1/2 p y^2", ["-x'", "-y'"]);
+    assert_eq!(family.said("stability.asymptotic", "s"), "p >= 0");
+    // A charge in a magnetic field moves on circles, and without one it rests anywhere.
+    let free = damped("", "0", ["p y' - x'", "-p x' - y'"]);
+    let verdict = free.verdict("stability.asymptotic", "s");
+    assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+    // P = 0 of a follower force is asymptotically stable where the whole interval below its threshold is.
+    let turned = damped("\"p >= 0\"", "1/2 (x^2 + y^2)", ["-x' + p y", "-y' - p x"]);
+    assert_eq!(turned.said("stability.asymptotic", "s"), "0 <= p < 1");
 }

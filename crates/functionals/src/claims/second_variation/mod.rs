@@ -147,7 +147,7 @@ fn verdict(form: &Form<'_>) -> Verdict {
     if let (Some(Shown::Degenerate), Some(field)) = (shown, constant::degenerate(form)) {
         return degenerate(form, field);
     }
-    by_numbers(shown, places.numbers())
+    by_numbers(shown, places.numbers(), trial::is_exact(form))
 }
 
 const POSITIVE: &str = "all variations that are admitted and do not vanish";
@@ -365,7 +365,12 @@ fn degenerate(form: &Form<'_>, field: Expr) -> Verdict {
     }
 }
 
-fn by_numbers(shown: Option<Shown>, (lower, upper): (f64, f64)) -> Verdict {
+fn by_numbers(shown: Option<Shown>, (lower, upper): (f64, f64), is_tried: bool) -> Verdict {
+    let tried = if is_tried {
+        "no polynomial of low degree makes the second variation negative"
+    } else {
+        "the coefficients are no polynomials with numbers, for which polynomial variations are integrated exactly"
+    };
     match shown {
         None => Verdict::undecided("Jacobi's equations have no numbers as coefficients, or could not be integrated: they are printed"),
         Some(Shown::Positive) => Verdict::Numerical(Evidence {
@@ -377,11 +382,11 @@ fn by_numbers(shown: Option<Shown>, (lower, upper): (f64, f64)) -> Verdict {
             why_no_proof: "Legendre's P is positive, and the determinant of a conjoined basis, integrated numerically, has no zero up to the right end; no function was found that proves it".into(),
         }),
         Some(Shown::Conjugate(x)) => Verdict::undecided(format!(
-            "the determinant of a conjoined basis vanishes at x = {x:.10}, and no polynomial of low degree makes the second variation negative"
+            "the determinant of a conjoined basis vanishes at x = {x:.10}, and {tried}"
         )),
-        Some(Shown::NegativeAtEnd) => Verdict::undecided(
-            "at the free end the condition fails numerically, and no polynomial of low degree makes the second variation negative",
-        ),
+        Some(Shown::NegativeAtEnd) => Verdict::undecided(format!(
+            "at the free end the condition fails numerically, and {tried}"
+        )),
         Some(Shown::Degenerate) => Verdict::undecided(
             "as far as numbers tell Jacobi's field satisfies the condition at the right end, and no closed form of it shows whether it does so exactly",
         ),

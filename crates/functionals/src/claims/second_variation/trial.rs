@@ -24,6 +24,12 @@ struct Trial {
 /// A variation: one polynomial for each component.
 type Variation = Vec<Polynomial>;
 
+/// Whether the coefficients are polynomials with numbers, so that variations can be tried.
+pub(super) fn is_exact(form: &Form<'_>) -> bool {
+    let places = [Rational::ZERO, rational::integer(1)];
+    Trial::new(form, &places).is_some()
+}
+
 /// A negative value, where one is found, between two numbers. At an end that is held and no rational number the variation vanishes from a place
 /// before on; one that is free is met by rational numbers first, and the value is then enclosed.
 pub(super) fn negative(form: &Form<'_>, places: &[Rational; 2]) -> Option<[f64; 2]> {
