@@ -48,6 +48,7 @@ pub mod multiplicity;
 mod neighbourhood;
 mod parameter_values;
 pub mod parts;
+mod poles;
 pub mod problem;
 pub mod question;
 pub mod real_roots;

@@ -11,6 +11,8 @@ use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::polynomial::normal_form::normal_form;
 use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::cmp::Reverse;
 
@@ -112,7 +114,7 @@ impl<'a> Equations<'a> {
         })
     }
 
-    /// Whether the sum of the squares of all minors of the gradients of the constraints is a number that is not zero.
+    /// Whether a minor of the gradients of the constraints, or the sum of the squares of all, is known to vanish nowhere.
     pub(crate) fn has_full_rank(&self, terms: &MotionTerms, selection: &Selection) -> bool {
         let (g, n) = (&self.system.graph, self.system.n());
         let rows = selection.rows.iter();
@@ -121,17 +123,17 @@ impl<'a> Equations<'a> {
         if choices.len() > MINORS {
             return false;
         }
-        let square = |columns: &Vec<usize>| {
+        let minor = |columns: &Vec<usize>| {
             let of_row = |row: &Vec<Expr>| columns.iter().map(|&j| row[j]).collect();
             let minor: Vec<Vec<Expr>> = rows.iter().map(of_row).collect();
-            g.powi(determinant(g, &minor), 2)
+            determinant(g, &minor)
         };
-        let squares: Vec<Expr> = choices.iter().map(square).collect();
-        let sum = at_point(g, &[g.add(&squares)], &[&self.values]);
-        rows.is_empty()
-            || sum
-                .iter()
-                .all(|&e| g.as_number(e).is_some() && !g.is_zero(e))
+        let minors: Vec<Expr> = choices.iter().map(minor).collect();
+        let minors = at_point(g, &minors, &[&self.values]);
+        let squares: Vec<Expr> = minors.iter().map(|&e| g.powi(e, 2)).collect();
+        let sum = closed(g, g.add(&squares));
+        let is_nonzero = |&e: &Expr| known_sign(g, e, &Assumptions::new()).is_nonzero();
+        rows.is_empty() || minors.iter().chain([&sum]).any(is_nonzero)
     }
 
     /// Whether the mass matrix is singular along a motion.

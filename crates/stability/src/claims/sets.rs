@@ -1,6 +1,7 @@
 //! All states of rest, and all steady motions, of a system.
 
 use super::stated::refused;
+use crate::poles::is_pole;
 use crate::problem::LinearizationError;
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_set::{all_of, Sought};
@@ -77,6 +78,14 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
         Ok(Ok(set)) => {
             let g = &system.graph;
             let said = listed(g, &set, sought);
+            // States of the system at which its equations are not defined may be at rest all the same.
+            let mut excluded = set.excluded.iter();
+            let is_left_out =
+                !set.has_full_rank || excluded.any(|&e| !is_pole(system, e, &values));
+            if is_left_out {
+                let clauses = std::iter::once(said).chain(set.left_out(g));
+                return Verdict::undecided(clauses.collect::<Vec<_>>().join("; "));
+            }
             // Whether a family has real members is a part of which there are.
             if set.found.iter().all(|own| own.is_real) {
                 Verdict::Proved(Proof::exact(on(g, &set), said))

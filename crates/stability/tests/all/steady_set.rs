@@ -417,6 +417,36 @@ driven = "x' = 1"
     ));
 }
 
+/// Where the equations are not defined although the system is, it may rest: √(x⁴) and r³ do in the origin, and so does what a constraint holds
+/// there that crosses itself. What has no value there, as the attraction by a centre, is no state at all.
+#[test]
+fn rest_where_the_equations_are_not_defined_is_not_denied() {
+    let said = |potential: &str, constraint: &str| {
+        let case = Case::new(&format!(
+            "coordinates = [\"x\", \"y\"]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\nV = \"{potential}\"\n[constraints]\n{constraint}\n"
+        ));
+        let found = case.verdict_of_all("equilibrium.states");
+        format!("{}: {}", found.word(), found.detail())
+    };
+    for potential in ["sqrt(x^4) + y^2", "(x^2 + y^2)^(3/2)", "(x^2)^(2/3) + y^2"] {
+        let found = said(potential, "");
+        assert!(found.starts_with("undecided"), "{potential}: {found}");
+        assert!(
+            found.contains("nothing is said where"),
+            "{potential}: {found}"
+        );
+    }
+    let crossing = said("1/2 (x^2 + y^2)", "c = \"x^2 = y^2 + y^4\"");
+    assert!(crossing.starts_with("undecided"), "{crossing}");
+    for potential in ["-1/sqrt(x^2 + y^2)", "log(x^2 + y^2)"] {
+        let found = said(potential, "");
+        assert_eq!(found, "proved: there is no state of rest", "{potential}");
+    }
+    // y' = x' x: the gradient (x, −1) vanishes nowhere.
+    let slope = said("1/2 (x^2 + y^2)", "c = \"y' = x x'\"");
+    assert!(slope.starts_with("proved"), "{slope}");
+}
+
 /// Values of roots, absolute values and angles, by hand: √x = 2, |x| = 1, √(1 + x²) = 2; sin a = sin b has b = a and b = π − a; √(x²) = x
 /// for x ≥ 0 alone.
 #[test]

@@ -1,0 +1,75 @@
+//! Where the functions that a model states have no value: states there are none of the system, so that nothing is left out where they are.
+
+use crate::steady::{at_point, closed};
+use chetaev_mechanics::System;
+use chetaev_symbolic::factors::irreducible_factors;
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+
+/// Whether L, a force or a constraint has no value where a function of the state vanishes.
+pub(crate) fn is_pole(system: &System, e: Expr, values: &[(Expr, Expr)]) -> bool {
+    let g = &system.graph;
+    let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
+    poles(system, values).into_iter().any(|pole| {
+        factors_of(g, pole, &symbols)
+            .into_iter()
+            .any(|own| is_multiple(g, own, e))
+    })
+}
+
+/// Functions at whose zeros something that is stated has no value: denominators, and what stands under logarithms.
+fn poles(system: &System, values: &[(Expr, Expr)]) -> Vec<Expr> {
+    let g = &system.graph;
+    let constraints = system.constraints.iter().map(|own| own.stated);
+    let stated: Vec<Expr> = std::iter::once(system.lagrangian)
+        .chain(system.forces.iter().copied())
+        .chain(constraints)
+        .collect();
+    let stated = at_point(g, &stated, &[values]);
+    let all = g.reachable(&stated).into_iter();
+    all.filter_map(|e| match g.node(e) {
+        Node::Power { base, exponent } => {
+            let number = g.as_number(*exponent)?;
+            chetaev_symbolic::rational::is_negative(number).then_some(*base)
+        }
+        Node::Apply {
+            function: Function::Tan,
+            arguments,
+        } => Some(g.apply(Function::Cos, &[*arguments.first()?])),
+        Node::Apply {
+            function: Function::Log,
+            arguments,
+        } => arguments.first().copied(),
+        _ => None,
+    })
+    .collect()
+}
+
+fn factors_of(g: &Graph, e: Expr, symbols: &[Symbol]) -> Vec<Expr> {
+    let all = irreducible_factors(g, e, symbols);
+    all.map_or_else(
+        || vec![e],
+        |all| all.into_iter().map(|(own, _)| own).collect(),
+    )
+}
+
+/// Whether two functions vanish together because one is a multiple of the other by a number, without roots.
+fn is_multiple(g: &Graph, a: Expr, b: Expr) -> bool {
+    let ratio = g.div(without_root(g, a), without_root(g, b));
+    g.as_number(closed(g, ratio)).is_some()
+}
+
+/// A function that vanishes where another does: what stands under its root.
+fn without_root(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Power { base, exponent } => {
+            let number = g.as_number(*exponent);
+            let is_root = number.is_some_and(|own| !chetaev_symbolic::rational::is_negative(own));
+            if is_root {
+                without_root(g, *base)
+            } else {
+                e
+            }
+        }
+        _ => e,
+    }
+}
