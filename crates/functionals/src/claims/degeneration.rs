@@ -66,6 +66,7 @@ impl Claim for Degeneration {
                     how: &how,
                     values,
                     besides: &[],
+                    stands: values,
                     is_descent: false,
                 };
                 comparison.decided(&|e| put_in(functional, values, e))
@@ -87,6 +88,8 @@ pub(super) struct Comparison<'f> {
     pub values: &'f [Special],
     /// Labels of equations that were imposed besides.
     pub besides: &'f [String],
+    /// What stands for fields that are not there any more.
+    pub stands: &'f [Special],
     /// Whether the other functional is one level below: what it imposes is then said in the fields of the first, and on the boundary a
     /// difference may be of second order in stated equations, so that neither the value of the functional where they hold nor its first
     /// variation there depends on it.
@@ -107,7 +110,7 @@ impl Comparison<'_> {
         let mut all = Verdict::Proved(Proof::exact("", ""));
         let admitted = Admitted {
             functional,
-            values: self.values,
+            values: self.stands,
             besides: self.besides,
         };
         if let Some(verdict) = admitted.differs_from(other) {

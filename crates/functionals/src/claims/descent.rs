@@ -4,7 +4,7 @@ use super::degeneration::Comparison;
 use super::modulo::labels;
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Functional, Relation};
+use crate::functional::{Functional, Relation, Special, SpecialKind};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `functional.descent#NAME`.
@@ -93,6 +93,7 @@ pub(super) fn descended(
         )
         .into();
     }
+    let stands = eliminated(above, &fields, &solved);
     let everywhere: Vec<Group> = groups.into_iter().map(|(_, g)| g).collect();
     let on_boundary = Solved::new(space).preferring(&fields).with(&everywhere);
     let how = format!("imposing {} on {},", labels(imposed), above.name);
@@ -103,6 +104,7 @@ pub(super) fn descended(
         how: &how,
         values: &[],
         besides: imposed,
+        stands: &[stands],
         is_descent: true,
     };
     comparison.decided(&|e: Expr| {
@@ -112,4 +114,20 @@ pub(super) fn descended(
             on_boundary.normal(e)
         }
     })
+}
+
+/// What stands for the components of fields where equations are solved for them.
+fn eliminated(above: &Functional, fields: &[String], solved: &Solved<'_>) -> Special {
+    let space = &*above.space;
+    let of_fields = above.fields.iter().filter(|own| fields.contains(&own.name));
+    let components = of_fields.flat_map(|own| own.components.iter());
+    let pairs = components.filter_map(|&component| {
+        let own = space.jet(component, &[]);
+        let value = solved.normal(own);
+        (value != own).then_some((own, value))
+    });
+    Special {
+        written: String::new(),
+        what: SpecialKind::Symbols(pairs.collect()),
+    }
 }

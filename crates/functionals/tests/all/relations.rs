@@ -200,3 +200,29 @@ fn what_is_imposed_on_the_way_down_is_imposed_below() {
         ("proved", ""),
     );
 }
+
+/// From Timoshenko's beam to that of Euler and Bernoulli: with the angle the slope is given.
+#[test]
+fn what_is_given_of_an_eliminated_field_is_given_below() {
+    let above = Text {
+        ends: ["{ fixed = [\"w\", \"psi\"] }", FREE],
+        equations: "k = \"psi = -w,x\"",
+        ..Text::of("1/2 psi,x^2 + 1/2 (w,x + psi)^2 - f w", &["w", "psi"])
+    };
+    let below = |ends| Text {
+        ends,
+        ..Text::of("1/2 w,xx^2 - f w", &["w"])
+    };
+    let clamped = ["{ fixed = [\"w\", \"w,n\"] }", FREE];
+    descends("\"k\"", below(clamped), above, ("proved", ""));
+    let supported = ["{ fixed = [\"w\"] }", FREE];
+    descends(
+        "\"k\"",
+        below(supported),
+        above,
+        (
+            "refuted",
+            "the normal derivative of w on x = 0 is given in other",
+        ),
+    );
+}

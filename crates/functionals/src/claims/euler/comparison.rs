@@ -236,7 +236,8 @@ impl<'f> Comparison<'f> {
                 pair.0, pair.1
             );
             let own = self.judge(what, &[corner.value], &stated, &residuals);
-            judged.push(self.as_whole(own, &[corner.value], System::Stated, None));
+            let on = format!("{}, {}", pair.0, pair.1);
+            judged.push(self.as_whole(own, &[corner.value], System::Stated, Some(&on)));
         }
     }
 
