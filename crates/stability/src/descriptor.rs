@@ -7,7 +7,7 @@
 
 use crate::expansion::Expansion;
 use crate::multiplicity::product;
-use crate::state_space::StateSpace;
+use crate::state_space::{StateSpace, StateSpaceError};
 use crate::steady::{at_point, solution};
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_symbolic::{Expr, Symbol};
@@ -46,6 +46,9 @@ pub enum DescriptorError {
     /// Velocities that the constraints give only implicitly.
     #[error("constraints that are not solved for velocities in closed form have no linear equations in all variables")]
     Implicit,
+    /// An output that has no linear form.
+    #[error(transparent)]
+    Output(#[from] StateSpaceError),
     /// No multipliers carry the motion.
     #[error("the multipliers along the motion were not found in closed form")]
     Multipliers,
@@ -79,7 +82,13 @@ impl Expansion<'_> {
             .collect();
         let multipliers = self.multipliers(&point, &jacobian)?;
         let motion = self.equations_of_motion(&point.accelerations, &jacobian, &multipliers);
-        let stated = outputs.iter().map(|(_, e)| *e);
+        let stated: Vec<Expr> = outputs.iter().map(|(_, e)| *e).collect();
+        self.are_determined(&stated)?;
+        let unknown: Vec<Expr> = rows.iter().map(|&row| self.multiplier(row)).collect();
+        let stated = self.with_accelerations(&stated, &jacobian, &unknown)?;
+        let by_unknown = self.by_multipliers(&point, &stated, (&unknown, &multipliers))?;
+        let along: Vec<(Expr, Expr)> = unknown.iter().copied().zip(multipliers).collect();
+        let stated = g.substitute_all(&stated, &along);
         let whole: Vec<Expr> = motion.into_iter().chain(conditions).chain(stated).collect();
         let inputs = self.inputs_of(&whole);
         let coordinates = &self.system.coordinates;
@@ -108,18 +117,14 @@ impl Expansion<'_> {
         let states: Vec<String> = states
             .chain(names.into_iter().map(|name| format!("lambda_{name}")))
             .collect();
-        let padded = |own: &Vec<Expr>| {
-            own.iter()
-                .copied()
-                .chain(std::iter::repeat_n(zero, m))
-                .collect()
-        };
+        let rows_of_outputs = slopes[n + m..].iter().zip(&by_unknown);
+        let c = rows_of_outputs.map(|(own, by)| [own.clone(), by.clone()].concat());
         let mut space = StateSpace {
             outputs: outputs.iter().map(|(name, _)| name.clone()).collect(),
             inputs: inputs.iter().map(|&s| g.symbol_text(s)).collect(),
             a,
             b: b.collect(),
-            c: slopes[n + m..].iter().map(padded).collect(),
+            c: c.collect(),
             d: by_inputs[n + m..].to_vec(),
             states,
         };
@@ -131,6 +136,47 @@ impl Expansion<'_> {
             left,
             space,
         })
+    }
+
+    /// Outputs with the accelerations of the equations of motion, `W a = b + Jᵀλ`, where some occur.
+    fn with_accelerations(
+        &self,
+        outputs: &[Expr],
+        jacobian: &[Vec<Expr>],
+        multipliers: &[Expr],
+    ) -> Result<Vec<Expr>, DescriptorError> {
+        let (g, coordinates) = (self.graph(), &self.system.coordinates);
+        let symbols: Vec<Symbol> = coordinates
+            .iter()
+            .filter_map(|c| g.as_symbol(c.a))
+            .collect();
+        if !g.any_contains_any(outputs, &symbols) {
+            return Ok(outputs.to_vec());
+        }
+        let still = vec![g.zero(); coordinates.len()];
+        let right = self.equations_of_motion(&still, jacobian, multipliers);
+        let found = g.solve(&self.terms.mass_matrix.concat(), &right);
+        let found = found.map_err(StateSpaceError::SingularMass)?;
+        let pairs: Vec<(Expr, Expr)> = coordinates.iter().map(|c| c.a).zip(found).collect();
+        Ok(g.substitute_all(outputs, &pairs))
+    }
+
+    /// The slopes of outputs by the multipliers at the motion.
+    fn by_multipliers(
+        &self,
+        point: &Point,
+        outputs: &[Expr],
+        (unknown, values): (&[Expr], &[Expr]),
+    ) -> Result<Vec<Vec<Expr>>, DescriptorError> {
+        let g = self.graph();
+        let symbols: Vec<Symbol> = unknown.iter().filter_map(|&e| g.as_symbol(e)).collect();
+        let along: Vec<(Expr, Expr)> = unknown.iter().copied().zip(values.to_vec()).collect();
+        let slopes = g.jacobian(outputs, &symbols);
+        let slopes: Vec<Vec<Expr>> = slopes
+            .iter()
+            .map(|row| g.substitute_all(row, &along))
+            .collect();
+        self.constant(point, &slopes)
     }
 
     /// The eigenvalues that ignorable coordinates add, where their rates depend on each other in a row only.

@@ -4,6 +4,7 @@ use crate::expansion::Expansion;
 use crate::linearization::Linearization;
 use crate::multiplicity::product;
 use crate::steady::{closed, echelon};
+use chetaev_mechanics::redundancy::Reactions;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::matrix::{determinant, inverse};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -33,6 +34,12 @@ pub struct StateSpace {
 /// Why there is no such form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StateSpaceError {
+    /// An output contains a multiplier that the motion does not determine.
+    #[error("the multiplier `{multiplier}` in an output is not determined: constraints that follow from each other share their reactions")]
+    Undetermined {
+        /// The multiplier.
+        multiplier: String,
+    },
     /// The mass matrix is singular at the motion.
     #[error("the mass matrix is singular at the motion: {0}")]
     SingularMass(#[from] SolveError),
@@ -49,7 +56,8 @@ pub enum StateSpaceError {
 }
 
 impl Expansion<'_> {
-    /// The form in state space with outputs as functions of coordinates, velocities and controls; without any the variables are the outputs.
+    /// The form in state space with outputs as functions of coordinates, velocities, accelerations, controls and multipliers; without any the
+    /// variables are the outputs. Accelerations and multipliers are those of the equations of motion, so that they add to C and to D.
     ///
     /// # Errors
     /// [`StateSpaceError`].
@@ -59,25 +67,25 @@ impl Expansion<'_> {
         outputs: &[(String, Expr)],
     ) -> Result<StateSpace, StateSpaceError> {
         let g = self.graph();
-        let inputs = self.inputs(outputs);
+        let stated: Vec<Expr> = outputs.iter().map(|(_, e)| *e).collect();
+        let stated = self.on_motion(&stated)?;
+        let inputs = self.inputs(&stated);
         let inverse = self.inverse(linear)?;
         let direct = self.by_inputs(&inputs);
-        let (mut names, mut c, mut d) = (Vec::new(), Vec::new(), Vec::new());
-        for (name, e) in outputs {
-            let (row, by) = self.output(linear, name, *e, &inputs)?;
-            names.push(name.clone());
-            c.push(row);
-            d.push(by);
-        }
         let mut found = StateSpace {
             states: linear.names.clone(),
             inputs: inputs.iter().map(|&s| g.symbol_text(s)).collect(),
-            outputs: names,
+            outputs: outputs.iter().map(|(name, _)| name.clone()).collect(),
             a: product(g, &inverse, &linear.right),
             b: product(g, &inverse, &direct),
-            c,
-            d,
+            c: Vec::new(),
+            d: Vec::new(),
         };
+        for ((name, _), own) in outputs.iter().zip(stated) {
+            let (row, by) = self.output(&found, name, own, &inputs)?;
+            found.c.push(row);
+            found.d.push(by);
+        }
         if outputs.is_empty() {
             found.show_states(g);
         }
@@ -108,11 +116,70 @@ impl Expansion<'_> {
     }
 
     /// The controls and derivatives of controls that occur in the equations of motion or in outputs.
-    fn inputs(&self, outputs: &[(String, Expr)]) -> Vec<Symbol> {
+    fn inputs(&self, outputs: &[Expr]) -> Vec<Symbol> {
         let mut all = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
-        let stated: Vec<Expr> = outputs.iter().map(|(_, e)| *e).collect();
-        all.extend(self.own.characteristics.restrict(self.system, &stated));
+        all.extend(outputs);
         self.inputs_of(&all)
+    }
+
+    /// Outputs as functions of coordinates, independent velocities and their rates, and controls: multipliers are solved for from the equations of
+    /// as many coordinates.
+    fn on_motion(&self, outputs: &[Expr]) -> Result<Vec<Expr>, StateSpaceError> {
+        let (g, selection) = (self.graph(), self.selection);
+        self.are_determined(outputs)?;
+        let names: Vec<Expr> = selection
+            .rows
+            .iter()
+            .map(|&row| self.multiplier(row))
+            .collect();
+        let symbols: Vec<Symbol> = names.iter().filter_map(|&e| g.as_symbol(e)).collect();
+        let mut outputs = outputs.to_vec();
+        if g.any_contains_any(&outputs, &symbols) {
+            let multipliers = self.multipliers_of_state()?;
+            let pairs: Vec<(Expr, Expr)> = names.into_iter().zip(multipliers).collect();
+            outputs = g.substitute_all(&outputs, &pairs);
+        }
+        Ok(self.own.characteristics.on_jet(self.system, &outputs))
+    }
+
+    /// The multiplier of a constraint, by its row.
+    pub(crate) fn multiplier(&self, row: usize) -> Expr {
+        let own = &self.system.constraints[self.terms.constraint_index[row]];
+        self.graph().symbol(&format!("lambda_{}", own.name), 0)
+    }
+
+    /// Whether the motion determines all multipliers in outputs.
+    pub(crate) fn are_determined(&self, outputs: &[Expr]) -> Result<(), StateSpaceError> {
+        let g = self.graph();
+        let occurring = g.symbols_in(outputs);
+        let reactions = Reactions::of(self.system, self.terms, self.selection);
+        let mut open = reactions.undetermined.iter();
+        let own = open.find_map(|&row| {
+            let symbol = g.as_symbol(self.multiplier(row))?;
+            occurring.contains(&symbol).then(|| g.symbol_text(symbol))
+        });
+        match own {
+            Some(multiplier) => Err(StateSpaceError::Undetermined { multiplier }),
+            None => Ok(()),
+        }
+    }
+
+    /// λ with `Jᵀλ = W a − Q` for the coordinates whose velocities the constraints determine.
+    fn multipliers_of_state(&self) -> Result<Vec<Expr>, SolveError> {
+        let (g, terms, selection) = (self.graph(), self.terms, self.selection);
+        let accelerations: Vec<Expr> = self.system.coordinates.iter().map(|c| c.a).collect();
+        let right = |&d: &usize| {
+            let inertia = terms.mass_matrix[d].iter().zip(&accelerations);
+            let inertia: Vec<Expr> = inertia.map(|(&w, &a)| g.mul(&[w, a])).collect();
+            g.sub(g.add(&inertia), terms.force[d])
+        };
+        let right: Vec<Expr> = selection.dependent.iter().map(right).collect();
+        let row = |&d: &usize| {
+            let rows = selection.rows.iter();
+            rows.map(move |&row| terms.jacobian[row][d])
+        };
+        let matrix: Vec<Expr> = selection.dependent.iter().flat_map(row).collect();
+        g.solve(&matrix, &right)
     }
 
     /// The controls and derivatives of controls that occur in expressions.
@@ -143,20 +210,19 @@ impl Expansion<'_> {
         self.at_rows(&g.jacobian(&rows, inputs))
     }
 
-    /// The rows of C and D of an output.
+    /// The rows of C and D of an output; what the rates of the speeds add, which vanish along the motion, goes through A and B.
     fn output(
         &self,
-        linear: &Linearization,
+        space: &StateSpace,
         name: &str,
-        e: Expr,
+        own: Expr,
         inputs: &[Symbol],
     ) -> Result<(Vec<Expr>, Vec<Expr>), StateSpaceError> {
         let g = self.graph();
-        let own = self.own.characteristics.restrict(self.system, &[e])[0];
         let no_output = |coordinate: String| StateSpaceError::NoOutput {
             name: name.into(),
             coordinate,
-            variables: linear.names.join(", "),
+            variables: space.states.join(", "),
         };
         let Some(own) = self.without_ignorable(own) else {
             let ignorable = self.own.ignorable(self.system).into_iter();
@@ -167,9 +233,25 @@ impl Expansion<'_> {
                 .map(|j| self.system.coordinates[j].name.clone());
             return Err(no_output(first.unwrap_or_else(|| "t".into())));
         };
+        let speeds = self.own.characteristics.parameters.iter();
+        let rates: Vec<Expr> = speeds.map(|own| own.rate).collect();
+        let symbols: Vec<Symbol> = rates.iter().filter_map(|&e| g.as_symbol(e)).collect();
+        let still: Vec<(Expr, Expr)> = rates.iter().map(|&rate| (rate, g.zero())).collect();
+        let by_rates = g.substitute_all(&g.gradient(own, &symbols), &still);
+        let by_rates = self.at(&by_rates);
+        let own = g.substitute(own, &still);
         let row = self.at(&self.derivatives(own));
-        let by = self.at(&g.gradient(own, inputs));
-        Ok((self.reduced(&self.reduction(), &row), by))
+        let mut row = self.reduced(&self.reduction(), &row);
+        let mut by = self.at(&g.gradient(own, inputs));
+        let first = space.states.len() - by_rates.len();
+        for (at, &weight) in by_rates.iter().enumerate() {
+            for (sums, parts) in [(&mut row, &space.a), (&mut by, &space.b)] {
+                for (sum, &part) in sums.iter_mut().zip(&parts[first + at]) {
+                    *sum = closed(g, g.add(&[*sum, g.mul(&[weight, part])]));
+                }
+            }
+        }
+        Ok((row, by))
     }
 }
 

@@ -168,3 +168,53 @@ fn circles_have_no_constant_coefficients() {
         "{found:?}"
     );
 }
+
+/// Two masses side by side, y = x, on a spring 3 x²/2 with a force u on the first: 2 x'' = −3 x + u, and the reaction λ = y''.
+#[test]
+fn accelerations_and_reactions_are_outputs() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "3/2 x^2"
+[constraints]
+c = "y = x"
+[controls]
+u = {}
+[forces]
+x = "u"
+[steady.o]
+x = 0
+y = 0
+"#,
+    );
+    let texts = ["lambda_c", "x''", "x'' + x"];
+    let outputs: Vec<(String, Expr)> = texts
+        .iter()
+        .map(|&text| (text.to_owned(), case.read(text)))
+        .collect();
+    let about = Expansion::new(
+        &case.system,
+        &case.prepared.terms,
+        &case.prepared.selection,
+        &case.system.steady[0],
+        &case.values(""),
+    )
+    .unwrap();
+    let space = about.state_space(&about.linear(), &outputs).unwrap();
+    let numbers = |rows: &[Vec<Expr>]| case.numbers(rows, &[]);
+    assert_eq!(numbers(&space.c), [[-1.5, 0.0], [-1.5, 0.0], [-0.5, 0.0]]);
+    assert_eq!(numbers(&space.d), [[0.5], [0.5], [0.5]]);
+    // In all variables (x, y, x', y', λ): x'' = −3 x + u − λ.
+    let all = in_all(&case, &case.system.steady[0], &texts).unwrap();
+    assert_eq!(
+        numbers(&all.space.c),
+        [
+            [0.0, 0.0, 0.0, 0.0, 1.0],
+            [-3.0, 0.0, 0.0, 0.0, -1.0],
+            [-2.0, 0.0, 0.0, 0.0, -1.0]
+        ]
+    );
+    assert_eq!(numbers(&all.space.d), [[0.0], [1.0], [1.0]]);
+}
