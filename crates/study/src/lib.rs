@@ -15,6 +15,7 @@
 
 pub mod beside;
 pub mod board;
+mod decimals;
 pub mod derivation;
 pub mod error;
 mod expectations;

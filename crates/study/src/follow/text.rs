@@ -1,6 +1,7 @@
 //! A curve of steady motions or orbits in words and as JSON.
 
 use super::Followed;
+use crate::decimals::{real, Decimals};
 use chetaev_orbits::branch::{End, Kind, Point, Special};
 use chetaev_stability::eigenvalues::Complex;
 use serde_json::{json, Value};
@@ -136,7 +137,7 @@ impl Followed {
 
     fn row(&self, at: usize, point: &Point) -> String {
         let head = self.range.as_ref().map_or(String::new(), |range| {
-            format!("{} = {:<10.6}", range.name, point.parameter)
+            format!("{} = {:<10}", range.name, real(point.parameter, 6))
         });
         let values = self.variables.iter().zip(&point.unknowns);
         let values: Vec<String> = values
@@ -147,7 +148,9 @@ impl Followed {
             .get(at)
             .map_or(String::new(), |t| format!("  period {t:.9}"));
         let own = point.spectrum.values.iter();
-        let own: Vec<String> = own.map(|l| number(l.re, l.im)).collect();
+        let own: Vec<(f64, f64)> = own.map(|l| (l.re, l.im)).collect();
+        let decimals = Decimals::of(own.iter().copied());
+        let own: Vec<String> = own.into_iter().map(|l| decimals.complex(l)).collect();
         let word = if self.is_orbit {
             "multipliers"
         } else {
@@ -291,15 +294,5 @@ pub(crate) fn plain(x: f64) -> f64 {
         0.0
     } else {
         x
-    }
-}
-
-/// A complex number to six places.
-pub(crate) fn number(re: f64, im: f64) -> String {
-    let (re, im) = (plain(re), plain(im));
-    if im == 0.0 {
-        format!("{re:.6}")
-    } else {
-        format!("{re:.6}{im:+.6}i")
     }
 }

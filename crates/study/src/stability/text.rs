@@ -1,6 +1,7 @@
 //! What was asked of a steady motion, in words and columns for a terminal.
 
 use super::{named_parts, Mode, Numbers, Stability};
+use crate::decimals::{real, Decimals};
 use chetaev_mechanics::system::Parameter;
 use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
 use chetaev_stability::eigenvalues::unreached;
@@ -102,7 +103,8 @@ impl Stability {
         let [a, b] = [&space.a, &space.b].map(|rows| self.numbers(rows, at));
         match unreached(&a, &b) {
             Some(list) if !list.is_empty() => {
-                let list: Vec<String> = list.iter().map(|l| complex((l.re, l.im))).collect();
+                let list: Vec<(f64, f64)> = list.iter().map(|l| (l.re, l.im)).collect();
+                let list = complex(&list);
                 format!(
                     "  the modes with the eigenvalues {} are not reached\n",
                     list.join(", ")
@@ -179,9 +181,10 @@ impl Stability {
         if !modes.is_empty() {
             let _ = writeln!(text, "\nModes ({}):", self.question.linear.names.join(", "));
         }
+        let decimals = Decimals::of(modes.iter().map(|own| own.eigenvalue));
         for Mode { eigenvalue, vector } in modes {
-            let vector: Vec<String> = vector.into_iter().map(complex).collect();
-            let _ = writeln!(text, "  {}: ({})", complex(eigenvalue), vector.join(", "));
+            let (eigenvalue, vector) = (decimals.complex(eigenvalue), complex(&vector));
+            let _ = writeln!(text, "  {eigenvalue}: ({})", vector.join(", "));
         }
         text
     }
@@ -291,8 +294,8 @@ impl Stability {
             _ => "\nEigenvalues:\n".into(),
         };
         match self.eigenvalues(at) {
-            Some(list) => list.iter().for_each(|l| {
-                let _ = writeln!(text, "  {}", complex(*l));
+            Some(list) => complex(&list).iter().for_each(|l| {
+                let _ = writeln!(text, "  {l}");
             }),
             None => text.push_str("  not computed: a parameter has no value, or E is singular\n"),
         }
@@ -351,7 +354,7 @@ impl Stability {
         }
         let _ = writeln!(text, "\nEigenvalues");
         for (value, list) in self.table(range) {
-            let list: Vec<String> = list.iter().map(|l| complex(*l)).collect();
+            let list = complex(&list);
             let _ = writeln!(text, "  {name} = {value:<8}  {}", list.join("  "));
         }
         text
@@ -379,15 +382,9 @@ impl Stability {
     }
 }
 
-fn complex((re, im): (f64, f64)) -> String {
-    // No minus before what is zero as it is printed.
-    let plain = |x: f64| if x.abs() < 5e-7 { 0.0 } else { x };
-    let (re, im) = (plain(re), plain(im));
-    if im == 0.0 {
-        format!("{re:.6}")
-    } else {
-        format!("{re:.6}{im:+.6}i")
-    }
+fn complex(list: &[(f64, f64)]) -> Vec<String> {
+    let decimals = Decimals::of(list.iter().copied());
+    list.iter().map(|own| decimals.complex(*own)).collect()
 }
 
 /// The longest exact entry that is shown as it is.
@@ -429,9 +426,9 @@ fn decimal_polynomial(g: &Graph, e: Expr, symbol: Symbol) -> Option<String> {
     }
     let name = g.symbol_text(symbol);
     let term = |(power, value): &(usize, f64)| match power {
-        0 => format!("{value:.8}"),
-        1 => format!("{value:.8} {name}"),
-        power => format!("{value:.8} {name}^{power}"),
+        0 => real(*value, 8),
+        1 => format!("{} {name}", real(*value, 8)),
+        power => format!("{} {name}^{power}", real(*value, 8)),
     };
     let terms: Vec<String> = terms.iter().rev().map(term).collect();
     Some(terms.join(" + ").replace("+ -", "- "))

@@ -4,7 +4,8 @@
 //! these, the same ones at each call. What is found is a steady motion to rounding; that there are no others is not said.
 
 use super::words::sentence;
-use crate::follow::text::{number, plain, where_eigenvalues_lie};
+use crate::decimals::Decimals;
+use crate::follow::text::{plain, where_eigenvalues_lie};
 use crate::follow::{initial, of_motion, FollowError};
 use crate::stability::motions;
 use chetaev_mechanics::sample::Generator;
@@ -180,7 +181,9 @@ impl Search {
                 let _ = writeln!(text, "       one of a family of dimension {}", own.family);
             }
             let spectrum = &own.point.spectrum.values;
-            let eigenvalues: Vec<String> = spectrum.iter().map(|l| number(l.re, l.im)).collect();
+            let decimals = Decimals::of(spectrum.iter().map(|l| (l.re, l.im)));
+            let eigenvalues = spectrum.iter().map(|l| decimals.complex((l.re, l.im)));
+            let eigenvalues: Vec<String> = eigenvalues.collect();
             let _ = match eigenvalues.as_slice() {
                 [] => writeln!(text, "       no eigenvalues but those that structure gives"),
                 own => writeln!(
