@@ -24,10 +24,12 @@ use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
 use chetaev_orbits::{Flow, OrbitError};
+use chetaev_stability::guess::near;
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::steady::numbers;
 use chetaev_stability::steady_set::steady_set;
 use chetaev_symbolic::{Expr, Symbol};
+use std::borrow::Cow;
 
 /// What is followed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -203,7 +205,10 @@ fn state(
     if motion.name == "start" {
         return Ok((motion.name.clone(), initial(model, system, prepared)?));
     }
-    let point = of_motion(motion, system, prepared, &values)?;
+    // A guess that leads to no motion exactly is one for Newton's method.
+    let meant = near(system, terms, selection, (motion, &values));
+    let meant = meant.unwrap_or(Cow::Borrowed(motion));
+    let point = of_motion(&meant, system, prepared, &values)?;
     Ok((motion.name.clone(), point))
 }
 
