@@ -3,11 +3,12 @@
 use crate::error::OrbitError;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
-use chetaev_motion::turns::Turns;
+use chetaev_motion::turns::{outside_angles, Turns};
 use chetaev_motion::Binding;
 use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use nalgebra::DMatrix;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A first-order system with values of its parameters.
@@ -165,6 +166,28 @@ impl Flow {
     /// Whether the rates do not contain the time.
     pub fn is_autonomous(&self) -> bool {
         !self.graph.any_contains_any(&self.rates, &[self.time()])
+    }
+
+    /// The periods of the trigonometric functions of the time in the rates, ascending, at a state and these values of the parameters; none where the
+    /// rates depend on the time otherwise too.
+    pub fn periods(&self, z: &[f64], parameters: &[f64]) -> Vec<f64> {
+        let (g, time) = (&self.graph, self.time());
+        let (free, angles) = outside_angles(g, &self.rates);
+        let slopes: Vec<Expr> = angles.iter().map(|&e| g.diff(e, time)).collect();
+        if free.contains(&time) || g.any_contains_any(&slopes, &[time]) {
+            return Vec::new();
+        }
+        let value = |s: Symbol| {
+            let variable = self.variables.iter().position(|own| *own == s);
+            let variable = variable.map(|i| z[i]);
+            variable.or_else(|| Some(parameters[self.place(s)?]))
+        };
+        let rates = g.evaluate_f64(&slopes, &value).unwrap_or_default();
+        let rates = rates.into_iter().filter(|own| *own != 0.0);
+        let mut found: Vec<f64> = rates.map(|own| TAU / own.abs()).collect();
+        found.sort_by(f64::total_cmp);
+        found.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * *b);
+        found
     }
 
     /// The place of a parameter.
