@@ -149,6 +149,8 @@ pub enum End {
 pub(crate) const FAMILY: f64 = 1e-7;
 /// The same for a solution that is exact to rounding.
 const ROUNDING: f64 = 1e-13;
+/// A residual below this part of what a change of the state by its own size makes is one of a solution.
+const SOLVED: f64 = 1e-7;
 const STEPS: usize = 20;
 /// The same for the start, which may be far.
 const STEPS_OF_START: usize = 60;
@@ -199,7 +201,8 @@ pub fn solution(
         let damping = DAMPING * own.residual.norm();
         let change = damped(&matrix, &-own.residual, damping).ok_or(OrbitError::NoEigenvalues)?;
         let size = change.norm();
-        if is_done(size, last, x.norm()) {
+        let is_at_end = is_done(size, last, x.norm());
+        if is_at_end && is_solved(residual, &matrix, x.norm()) {
             let family = equations.family(&own.by_unknowns, &scale);
             equations.accepted(&unscaled, p)?;
             let spectrum = equations.spectrum(&unscaled, p, family)?;
@@ -210,7 +213,8 @@ pub fn solution(
             };
             return Ok((point, family));
         }
-        if step == STEPS_OF_START || !size.is_finite() {
+        // What is smallest without being zero has no direction to go on.
+        if is_at_end || step == STEPS_OF_START || !size.is_finite() {
             return Err(OrbitError::NotConverged {
                 what: equations.what(),
                 steps: step,
@@ -232,6 +236,11 @@ pub fn solution(
 /// Whether Newton's method has come to its end: steps are of the size of rounding, or small and no longer smaller.
 fn is_done(size: f64, last: f64, state: f64) -> bool {
     size <= ROUNDING * (1.0 + state) || (size <= 1e-9 * (1.0 + state) && size > 0.25 * last)
+}
+
+/// Whether equations hold: a residual is what rounding of the state, to [`SOLVED`], makes of it. Where it is not, it has a minimum there that is no zero.
+fn is_solved(residual: f64, matrix: &DMatrix<f64>, state: f64) -> bool {
+    residual <= SOLVED * matrix.norm() * (1.0 + state)
 }
 
 fn scale(x: &[f64]) -> Vec<f64> {
@@ -411,6 +420,9 @@ impl Walk<'_> {
             }
             y += change;
             if is_done(size, last, y.norm()) {
+                if !is_solved(residual, &square, y.norm()) {
+                    break;
+                }
                 return Ok((y, step));
             }
             last = size;

@@ -7,6 +7,7 @@ use crate::branch::{Equations, Kind, Linearized};
 use crate::error::OrbitError;
 use crate::flow::Flow;
 use crate::multipliers::{split, Named, Spectrum};
+use crate::subspace::complement;
 use crate::variational::{Column, Extended, Order, Variational};
 use chetaev_integrate::Output;
 use chetaev_motion::functions::Functions;
@@ -309,9 +310,11 @@ impl Equations for Shooting<'_> {
             .row_iter()
             .map(|row| ("a finite constraint".to_owned(), row.transpose()))
             .collect();
+        // An integral is one on admissible states, and its gradient is known up to those of finite constraints.
+        let admissible = complement(n, &slopes.transpose());
         for (k, (name, _)) in self.flow.conserved.iter().enumerate() {
             let gradient = DVector::from_column_slice(&gradients[k * n..(k + 1) * n]);
-            let change = monodromy.tr_mul(&gradient) - &gradient;
+            let change = admissible.tr_mul(&(monodromy.tr_mul(&gradient) - &gradient));
             let is_invariant =
                 change.norm() <= INVARIANT * gradient.norm() * (1.0 + monodromy.norm());
             if is_invariant && self.is_constant(k, &x[..n])? {

@@ -53,6 +53,12 @@ pub fn least_part(m: &DMatrix<f64>) -> f64 {
         .map_or(0.0, |(first, last)| last / first)
 }
 
+/// The same of a matrix that is given row by row.
+pub fn least_part_of(rows: usize, entries: &[f64]) -> f64 {
+    let columns = entries.len() / rows.max(1);
+    least_part(&DMatrix::from_row_slice(rows, columns, entries))
+}
+
 /// One pass; whether a pair was turned.
 fn turned<T: ComplexField<RealField = f64>>(
     columns: &mut DMatrix<T>,

@@ -288,6 +288,21 @@ fn zeros_of_conservative_systems() {
     is_close(found.special[0].point.parameter, 1.0, 1e-14);
 }
 
+/// x'' = −1 − x² has no state of rest: where the force is smallest, at x = 0, none is found.
+#[test]
+fn the_smallest_residual_is_no_solution() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - x - x^3/3\"\n",
+        &[("x", 0.3), ("x'", 0.0)],
+    );
+    let mut equations = Equilibria::new(&flow, None).unwrap();
+    let found = chetaev_orbits::branch::solution(&mut equations, &[0.3, 0.0], 0.0);
+    assert!(
+        matches!(found, Err(OrbitError::NotConverged { .. })),
+        "{found:?}"
+    );
+}
+
 /// Ziegler's column with equal damping d = 1/10 of both joints flutters from P = 2057/1400 on: Hurwitz's last determinant vanishes there.
 #[test]
 fn a_column_flutters_to_rounding() {
@@ -535,6 +550,95 @@ x = 1
         at("d2 x/d k d k"),
         second / (4.0 * k) - by_omega / (4.0 * w.powi(3)),
         1e-13,
+    );
+}
+
+/// The last row of the sensitivities of a model from rest to th0 and g, by names.
+fn by_start_and_gravity(text: &str, point: &[(&str, f64)], end: f64) -> BTreeMap<String, f64> {
+    let (system, prepared) = system(text);
+    let symbol = |name: &str| {
+        let order = u32::from(name.ends_with('\''));
+        system
+            .graph
+            .intern_symbol(name.trim_end_matches('\''), order)
+    };
+    let beginning = Beginning {
+        t: 0.0,
+        point: point.iter().map(|&(name, x)| (symbol(name), x)).collect(),
+        given: system.start.clone(),
+    };
+    let by = ["th0".to_owned(), "g".to_owned()];
+    let of = (&prepared.terms, &prepared.selection);
+    let to = (end, Output::End);
+    let found = sensitivities(&system, of, &beginning, (&by, Order::First), to).unwrap();
+    let row = found.rows.last().unwrap().1.clone();
+    found.columns().into_iter().zip(row).collect()
+}
+
+/// A pendulum in Cartesian coordinates passes its lowest place, where one velocity does not determine the other, and its turning points: its
+/// sensitivities are those in the angle, x = sin θ and y = −cos θ.
+#[test]
+fn a_pendulum_passes_where_a_velocity_is_not_determined() {
+    let angle = by_start_and_gravity(
+        "coordinates = [\"th\"]\nparameters = { g = 9.81, th0 = 0.4 }\n[lagrangian]\nL = \"1/2 th'^2 + g cos(th)\"\n[initial]\nth = \"th0\"\n\"th'\" = 0\n",
+        &[("th", 0.4), ("th'", 0.0)],
+        2.0,
+    );
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let plane = by_start_and_gravity(
+        "coordinates = [\"x\", \"y\"]\nparameters = { g = 9.81, th0 = 0.4 }\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - g y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n[initial]\nx = \"sin(th0)\"\ny = \"-cos(th0)\"\n\"x'\" = 0\n",
+        &[("x", sin), ("y", -cos), ("x'", 0.0), ("y'", 0.0)],
+        2.0,
+    );
+    let (sin, cos) = angle["th"].sin_cos();
+    is_close(plane["x"], sin, 1e-12);
+    is_close(plane["y"], -cos, 1e-12);
+    is_close(plane["x'"], cos * angle["th'"], 1e-12);
+    for by in ["th0", "g"] {
+        let (turn, rate) = (
+            angle[&format!("d th/d {by}")],
+            angle[&format!("d th'/d {by}")],
+        );
+        is_close(plane[&format!("d x/d {by}")], cos * turn, 1e-11);
+        is_close(plane[&format!("d y/d {by}")], sin * turn, 1e-11);
+        let of_velocity = cos * rate - sin * turn * angle["th'"];
+        is_close(plane[&format!("d x'/d {by}")], of_velocity, 1e-11);
+    }
+}
+
+/// A pendulum in Cartesian coordinates and all velocities: its period is 4 K(sin(α/2)) √(l/g), and of its four multipliers, all 1, two are of the
+/// constraint and its rate, one of the energy, which is constant on these alone, and one along the orbit.
+#[test]
+fn an_orbit_in_all_velocities() {
+    let (system, prepared) = system(
+        "coordinates = [\"x\", \"y\"]\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n",
+    );
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let flow =
+        Flow::in_all_velocities(&system, terms, selection, Coordinates::NotIgnorable).unwrap();
+    assert_eq!(flow.names, ["x", "y", "x'", "y'"]);
+    let (sin, cos) = 1.0_f64.sin_cos();
+    let mut orbits = Shooting::new(&flow, None, None).unwrap();
+    let start = orbits.unknowns(&[sin, -cos, 0.0, 0.0], 6.7);
+    let (orbit, _) = chetaev_orbits::branch::solution(&mut orbits, &start, 0.0).unwrap();
+    let own = &orbit.unknowns;
+    let energy = 0.5 * (own[2] * own[2] + own[3] * own[3]) + own[1];
+    let k = ((1.0 + energy) / 2.0).sqrt();
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    is_close(own[4], 2.0 * std::f64::consts::PI / a, 1e-10);
+    assert!(orbit.spectrum.values.is_empty(), "{:?}", orbit.spectrum);
+    let finite = "a finite constraint";
+    assert_eq!(
+        orbit.spectrum.trivial,
+        [
+            "the direction along the orbit",
+            finite,
+            finite,
+            "the energy"
+        ]
     );
 }
 
