@@ -152,14 +152,3 @@ x = 1
         assert_eq!(own.singular.is_some(), is_meeting, "{own:?}");
     }
 }
-
-/// Constraints whose gradients depend on each other at every admissible state, as z = 0 and z (1 + y²) = 0, determine no motion, and none is told.
-#[test]
-fn constraints_with_multiplicity_are_refused() {
-    let text = "name = \"twice\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2 + z'^2)\"\nV = \"y\"\n[constraints]\ntwice = \"2 x x' + 2 y y' = 0\"\nrod = \"x^2 + y^2 = 4\"\nplane = \"z = 0\"\nagain = \"z + z y^2 = 0\"\n[steady.hang]\nx = 0\ny = -2\nz = 0\n\"x'\" = 0\n\"y'\" = 0\n";
-    let model = load("twice.toml", text, &BTreeMap::new(), &[])
-        .model
-        .unwrap();
-    let problem = steady(&model, false).unwrap_err().to_string();
-    assert!(problem.contains("depend on each other"), "{problem}");
-}
