@@ -80,7 +80,7 @@ impl Turns {
 }
 
 /// The symbols of which expressions depend otherwise than through trigonometric functions, and the arguments of these.
-pub(crate) fn outside_angles(g: &Graph, roots: &[Expr]) -> (Vec<Symbol>, Vec<Expr>) {
+pub fn outside_angles(g: &Graph, roots: &[Expr]) -> (Vec<Symbol>, Vec<Expr>) {
     use Function::{Cos, Cot, Csc, Sec, Sin, Tan};
     let (mut open, mut seen) = (roots.to_vec(), BTreeSet::new());
     let (mut found, mut angles) = (Vec::new(), Vec::new());

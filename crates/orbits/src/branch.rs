@@ -43,8 +43,12 @@ pub trait Equations {
         None
     }
 
-    /// What changes its sign where the kind of motion may change; not a number where it vanishes identically.
-    fn tests(&self, values: &[Complex<f64>]) -> Vec<f64>;
+    /// What changes its sign where the kind of motion may change, by zeros and by poles of eigenvalues; below `unit` their sizes count, above
+    /// their directions alone, so that no product of them overflows.
+    fn tests(&self, values: &[Complex<f64>], unit: f64) -> Vec<f64>;
+
+    /// Which of the tests vanish to rounding: where they do beside what happens they vanish identically, by structure, as in systems with an energy.
+    fn vanish(&self, values: &[Complex<f64>]) -> Vec<bool>;
 
     /// What the zero of test number `test` at a solution is, `None` where it is nothing; `turns` says whether the curve turns back there.
     ///
@@ -145,6 +149,8 @@ pub enum End {
 pub(crate) const FAMILY: f64 = 1e-7;
 /// The same for a solution that is exact to rounding.
 const ROUNDING: f64 = 1e-13;
+/// A residual below this part of what a change of the state by its own size makes is one of a solution.
+const SOLVED: f64 = 1e-7;
 const STEPS: usize = 20;
 /// The same for the start, which may be far.
 const STEPS_OF_START: usize = 60;
@@ -195,7 +201,8 @@ pub fn solution(
         let damping = DAMPING * own.residual.norm();
         let change = damped(&matrix, &-own.residual, damping).ok_or(OrbitError::NoEigenvalues)?;
         let size = change.norm();
-        if is_done(size, last, x.norm()) {
+        let is_at_end = is_done(size, last, x.norm());
+        if is_at_end && is_solved(residual, &matrix, x.norm()) {
             let family = equations.family(&own.by_unknowns, &scale);
             equations.accepted(&unscaled, p)?;
             let spectrum = equations.spectrum(&unscaled, p, family)?;
@@ -206,7 +213,8 @@ pub fn solution(
             };
             return Ok((point, family));
         }
-        if step == STEPS_OF_START || !size.is_finite() {
+        // What is smallest without being zero has no direction to go on.
+        if is_at_end || step == STEPS_OF_START || !size.is_finite() {
             return Err(OrbitError::NotConverged {
                 what: equations.what(),
                 steps: step,
@@ -228,6 +236,11 @@ pub fn solution(
 /// Whether Newton's method has come to its end: steps are of the size of rounding, or small and no longer smaller.
 fn is_done(size: f64, last: f64, state: f64) -> bool {
     size <= ROUNDING * (1.0 + state) || (size <= 1e-9 * (1.0 + state) && size > 0.25 * last)
+}
+
+/// Whether equations hold: a residual is what rounding of the state, to [`SOLVED`], makes of it. Where it is not, it has a minimum there that is no zero.
+fn is_solved(residual: f64, matrix: &DMatrix<f64>, state: f64) -> bool {
+    residual <= SOLVED * matrix.norm() * (1.0 + state)
 }
 
 fn scale(x: &[f64]) -> Vec<f64> {
@@ -255,7 +268,7 @@ pub fn follow(
     pace: Pace,
 ) -> Result<Branch, OrbitError> {
     let p = p.clamp(range.0, range.1);
-    let (start, family) = solution(equations, guess, p)?;
+    let (start, family) = ordinary(equations, (guess, p), range)?;
     let mut walk = Walk::new(equations, &start, family, range)?;
     let mut ends = [End::Range; 2];
     let (mut all, mut special) = (Vec::new(), Vec::new());
@@ -279,6 +292,31 @@ pub fn follow(
     })
 }
 
+/// How far beside a start its family is looked at, in parts of the range.
+const ASIDE: f64 = 1e-3;
+
+/// A solution near a guess from which a curve can begin, with the dimension of the family at general values of the parameter.
+///
+/// The rank of ∂F/∂x is the largest at general points, and falls at those where something happens: a family that exists at one value of the
+/// parameter alone is a branch that crosses there. The curve begins beside such a point.
+fn ordinary(
+    equations: &mut dyn Equations,
+    (guess, p): (&[f64], f64),
+    range: (f64, f64),
+) -> Result<(Point, usize), OrbitError> {
+    let mut found = solution(equations, guess, p)?;
+    let aside = ASIDE * (range.1 - range.0);
+    let guess = found.0.unknowns.clone();
+    for q in [p + aside, p - aside] {
+        if found.1 == 0 || q < range.0 || q > range.1 {
+            continue;
+        }
+        let beside = solution(equations, &guess, q).ok();
+        found = beside.filter(|own| own.1 < found.1).unwrap_or(found);
+    }
+    Ok(found)
+}
+
 /// A test that falls to this part of what it was vanishes to rounding.
 const SPECIAL: f64 = 1e-9;
 /// A step that would end where something happens is made so much shorter.
@@ -290,6 +328,8 @@ struct Walk<'e> {
     scale: Vec<f64>,
     range: (f64, f64),
     family: usize,
+    /// The size below which eigenvalues are small.
+    unit: f64,
     /// Where the family is cut, and its directions.
     anchor: DVector<f64>,
     across: DMatrix<f64>,
@@ -310,6 +350,7 @@ impl Walk<'_> {
             equations,
             range,
             family,
+            unit: smallest(&start.spectrum.values),
             anchor: DVector::from_iterator(scale.len(), unknowns),
             across: across.ok_or(OrbitError::NoEigenvalues)?,
             scale,
@@ -379,6 +420,9 @@ impl Walk<'_> {
             }
             y += change;
             if is_done(size, last, y.norm()) {
+                if !is_solved(residual, &square, y.norm()) {
+                    break;
+                }
                 return Ok((y, step));
             }
             last = size;
@@ -481,10 +525,10 @@ impl Walk<'_> {
 
     /// Whether a test vanishes at a point, to rounding of what it is at the one before; one that does not vanish everywhere is no number there.
     fn is_special(&self, before: &Stand, at: &Stand) -> bool {
-        let [before, here] =
-            [before, at].map(|own| self.equations.tests(&own.point.spectrum.values));
-        let mut both = before.iter().zip(&here);
-        both.any(|(a, b)| !a.is_nan() && (b.is_nan() || b.abs() < SPECIAL * a.abs()))
+        (0..self.tests(at).len()).any(|test| {
+            let [a, b] = [before, at].map(|own| self.value(Sign::Test(test), own));
+            !a.is_nan() && (b.is_nan() || b.abs() < SPECIAL * a.abs())
+        })
     }
 
     /// The next point at this length, where the direction does not change much.
@@ -536,7 +580,7 @@ impl Walk<'_> {
         let turns = self.value(Sign::Growth, a) * self.value(Sign::Growth, b) < 0.0;
         let known = happened.len();
         let mut is_located = false;
-        for test in 0..self.equations.tests(&a.point.spectrum.values).len() {
+        for test in 0..self.tests(a).len() {
             let sign = Sign::Test(test);
             let [left, right] = [a, b].map(|own| self.value(sign, own));
             if left * right < 0.0 {
@@ -544,7 +588,7 @@ impl Walk<'_> {
                 is_located |= test == 0 && found.is_some();
                 let Some(own) = found else { continue };
                 // What jumps from one sign to the other has a pole between.
-                if self.value(sign, &own).abs() > JUMP * left.abs().min(right.abs()) {
+                if self.value_within(sign, &own).abs() > JUMP * left.abs().min(right.abs()) {
                     let kind = Kind::Infinity;
                     let point = own.point;
                     happened.push((own.s, Special { kind, point }));
@@ -668,7 +712,7 @@ impl Walk<'_> {
 
     /// Two zeros of a test that lie between points of the same sign: towards where it is smallest its sign is looked at.
     fn touching(&mut self, a: &Stand, b: &Stand, c: &Stand, happened: &mut Vec<(f64, Special)>) {
-        for test in 0..self.equations.tests(&b.point.spectrum.values).len() {
+        for test in 0..self.tests(b).len() {
             let sign = Sign::Test(test);
             let [low, middle, high] = [a, b, c].map(|own| self.value(sign, own));
             let is_same = low * middle > 0.0 && middle * high > 0.0;
@@ -710,13 +754,25 @@ impl Walk<'_> {
         None
     }
 
+    fn tests(&self, at: &Stand) -> Vec<f64> {
+        self.equations.tests(&at.point.spectrum.values, self.unit)
+    }
+
+    /// What is looked at, at a point beside which it may change its sign; no number where it vanishes identically.
     fn value(&self, sign: Sign, at: &Stand) -> f64 {
+        let vanish = self.equations.vanish(&at.point.spectrum.values);
+        if matches!(sign, Sign::Test(test) if vanish.get(test) == Some(&true)) {
+            f64::NAN
+        } else {
+            self.value_within(sign, at)
+        }
+    }
+
+    /// The same between two points at which it does not vanish.
+    fn value_within(&self, sign: Sign, at: &Stand) -> f64 {
         match sign {
             Sign::Growth => at.tangent[self.scale.len()],
-            Sign::Test(test) => {
-                let all = self.equations.tests(&at.point.spectrum.values);
-                all.get(test).copied().unwrap_or(f64::NAN)
-            }
+            Sign::Test(test) => self.tests(at).get(test).copied().unwrap_or(f64::NAN),
         }
     }
 
@@ -744,7 +800,7 @@ impl Walk<'_> {
         })
     }
 
-    /// The zero between two points of opposite sign, by false position with halved weights (Dowell and Jarratt 1971).
+    /// The zero between two points of opposite sign to rounding, by false position with halved weights (Dowell and Jarratt 1971).
     fn locate(&mut self, sign: Sign, a: &Stand, b: &Stand) -> Option<Stand> {
         let mut ends = [0.0, 1.0];
         let mut values = [self.value(sign, a), self.value(sign, b)];
@@ -755,23 +811,35 @@ impl Walk<'_> {
             let Some(own) = self.on_chord(a, b, part) else {
                 break;
             };
-            let value = self.value(sign, &own);
+            let value = self.value_within(sign, &own);
             best = Some(own);
-            // Not a number: an eigenvalue is zero to rounding.
             if !value.is_finite() || value == 0.0 {
                 break;
             }
             let side = usize::from(value * values[1] > 0.0);
+            let moved = (part - ends[side]).abs();
             (ends[side], values[side]) = (part, value);
             if kept == side {
                 values[1 - side] *= 0.5;
             }
             kept = side;
-            if (ends[1] - ends[0]).abs() < 1e-13 {
+            if moved.min(ends[1] - ends[0]) < LOCATED {
                 break;
             }
         }
         best
+    }
+}
+
+/// The size of the smallest eigenvalue that is none by rounding; 1 where there is none.
+fn smallest(values: &[Complex<f64>]) -> f64 {
+    let least = SPECIAL * largest(values);
+    let sizes = values.iter().map(|l| l.norm()).filter(|l| *l > least);
+    let found = sizes.fold(f64::INFINITY, f64::min);
+    if found.is_finite() {
+        found
+    } else {
+        1.0
     }
 }
 
@@ -781,6 +849,8 @@ fn largest(values: &[Complex<f64>]) -> f64 {
     sizes.fold(f64::MIN_POSITIVE, f64::max)
 }
 
+/// A place between two points is found where it moves by less, in parts of their distance.
+const LOCATED: f64 = 1e-15;
 /// A test that is a larger part than this of what it is beside its change of sign does not pass through zero there.
 const JUMP: f64 = 1e-2;
 /// A singular value below this part of what it is beside belongs to a second direction.

@@ -133,24 +133,22 @@ impl Equations for Equilibria<'_> {
         Some(value.re / size)
     }
 
-    fn tests(&self, values: &[Complex<f64>]) -> Vec<f64> {
-        let size = values
-            .iter()
-            .map(|l| l.norm())
-            .fold(f64::MIN_POSITIVE, f64::max);
-        let zero: Complex<f64> = values.iter().map(|l| l / size).product();
-        let mut pairs = Complex::new(1.0, 0.0);
-        for (i, a) in values.iter().enumerate() {
-            for b in &values[i + 1..] {
-                let sum = (a + b) / size;
-                pairs *= if sum.norm() < STRUCTURAL {
-                    Complex::new(f64::NAN, 0.0)
-                } else {
-                    sum
-                };
-            }
-        }
+    fn tests(&self, values: &[Complex<f64>], unit: f64) -> Vec<f64> {
+        let part = |l: Complex<f64>, size: f64| l / size.max(unit);
+        let zero: Complex<f64> = values.iter().map(|l| part(*l, l.norm())).product();
+        let pairs: Complex<f64> = pairs(values)
+            .map(|(a, b)| part(a + b, a.norm() + b.norm()))
+            .product();
         vec![zero.re, pairs.re]
+    }
+
+    fn vanish(&self, values: &[Complex<f64>]) -> Vec<bool> {
+        let size = values.iter().map(|l| l.norm()).fold(0.0, f64::max);
+        let mut pairs = pairs(values);
+        vec![
+            false,
+            pairs.any(|(a, b)| (a + b).norm() <= STRUCTURAL * size),
+        ]
     }
 
     fn kind(
@@ -177,4 +175,11 @@ impl Equations for Equilibria<'_> {
             first_lyapunov: found.map(|own| own.coefficient),
         }))
     }
+}
+
+/// All pairs of eigenvalues.
+fn pairs(values: &[Complex<f64>]) -> impl Iterator<Item = (Complex<f64>, Complex<f64>)> + '_ {
+    let beside = |i: usize| values[i + 1..].iter().copied();
+    let all = values.iter().enumerate();
+    all.flat_map(move |(i, a)| beside(i).map(move |b| (*a, b)))
 }

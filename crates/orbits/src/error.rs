@@ -63,6 +63,17 @@ pub enum OrbitError {
     /// Equations that contain the time and no period.
     #[error("the equations contain the time, and a period must be given: --period \"2 pi/omega\"")]
     PeriodMissing,
+    /// Equations that contain the time and do not repeat after a period.
+    #[error(
+        "the equations contain the time, and do not repeat after {period}: {}",
+        repeats(own)
+    )]
+    NotRepeated {
+        /// The period that was given.
+        period: f64,
+        /// The periods of the functions of the time, where all are periodic.
+        own: Vec<f64>,
+    },
     /// Equations that contain the time, where steady motions are asked for.
     #[error("the equations contain the time, and have no steady motions in general; --orbit with --period follows periodic ones")]
     NotAutonomous,
@@ -91,6 +102,19 @@ pub enum OrbitError {
 impl From<LinearizationError> for OrbitError {
     fn from(problem: LinearizationError) -> OrbitError {
         OrbitError::Closed(Box::new(problem))
+    }
+}
+
+/// Which periods are possible, in words.
+fn repeats(own: &[f64]) -> String {
+    let texts: Vec<String> = own.iter().map(f64::to_string).collect();
+    match &texts[..] {
+        [] => "no period of theirs is known, and there may be none".to_owned(),
+        [one] => format!("a period is a whole multiple of {one}, after which they do"),
+        all => format!(
+            "a period is a whole multiple of {}, those of their functions of the time",
+            all.join(" and of ")
+        ),
     }
 }
 

@@ -3,11 +3,14 @@
 use crate::error::OrbitError;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
-use chetaev_motion::turns::Turns;
+use chetaev_motion::turns::{outside_angles, Turns};
 use chetaev_motion::Binding;
+use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
+use chetaev_stability::singular::least_part;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use nalgebra::DMatrix;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A first-order system with values of its parameters.
@@ -33,6 +36,30 @@ pub struct Flow {
     pub conserved: Vec<(String, Expr)>,
     /// Variables that are angles: a whole turn more changes nothing.
     pub is_turning: Vec<bool>,
+    /// What the equations were divided by.
+    pub divisors: Divisors,
+}
+
+/// Matrices of functions of z by which accelerations and velocities are determined.
+#[derive(Clone, Debug, Default)]
+pub struct Divisors {
+    /// The mass matrix in quasi-velocities, row by row.
+    pub mass: Vec<Vec<Expr>>,
+    /// The gradients of the independent constraints by the velocities, row by row.
+    pub gradients: Vec<Vec<Expr>>,
+    /// The velocities by the quasi-velocities, which have poles where these do not serve.
+    pub slopes: Vec<Vec<Expr>>,
+}
+
+/// How far a state is from where the equations say nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margins {
+    /// The smallest singular value of the mass matrix in parts of the largest; 1 where there is none.
+    pub mass: f64,
+    /// The same of the gradients of the constraints.
+    pub gradients: f64,
+    /// The largest slope of a velocity by a quasi-velocity; infinite where one has no value.
+    pub slope: f64,
 }
 
 /// Which coordinates are variables.
@@ -56,6 +83,7 @@ impl Flow {
         Flow {
             names: variables.iter().map(|&s| graph.symbol_text(s)).collect(),
             is_turning: vec![false; variables.len()],
+            divisors: Divisors::default(),
             definitions: own,
             velocities: Vec::new(),
             finite: Vec::new(),
@@ -116,6 +144,7 @@ impl Flow {
             finite: Vec::new(),
             conserved: Vec::new(),
             is_turning: Vec::new(),
+            divisors: Divisors::default(),
             variables,
         };
         let finite = selection.rows.iter();
@@ -134,6 +163,77 @@ impl Flow {
             .into_iter()
             .map(|(name, e)| (name, plain(&c.restrict(system, &[e]))[0]))
             .map(|(name, e)| (name, g.substitute(e, &somewhere)))
+            .filter(|(_, e)| flow.is_closed(system, *e))
+            .collect();
+        (flow.finite, flow.conserved) = (finite, conserved);
+        let at_place = |rows: Vec<Vec<Expr>>| -> Vec<Vec<Expr>> {
+            let put = |row: Vec<Expr>| g.substitute_all(&plain(&row), &somewhere);
+            rows.into_iter().map(put).collect()
+        };
+        let gradients = selection.rows.iter();
+        let gradients = gradients.map(|&row| c.restrict(system, &terms.jacobian[row]));
+        flow.divisors = Divisors {
+            mass: at_place(closed.equations.mass.clone()),
+            gradients: at_place(gradients.collect()),
+            slopes: at_place(c.basis.clone()),
+        };
+        flow.parameters = values(system, &flow)?;
+        flow.is_turning = turning(system, &flow);
+        Ok(flow)
+    }
+
+    /// The motion of a system in coordinates and all velocities, with accelerations by multipliers: `W a − Jᵀ λ = b`, `J a = g`. No velocity is
+    /// solved for, so that it goes on where those that were chosen as dependent are no longer determined by the others, as those of a pendulum in
+    /// Cartesian coordinates. Constraints stay satisfied to rounding.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where there are no explicit equations, or a parameter has no value.
+    pub fn in_all_velocities(
+        system: &System,
+        terms: &MotionTerms,
+        selection: &Selection,
+        which: Coordinates,
+    ) -> Result<Flow, OrbitError> {
+        let (g, n) = (&system.graph, system.n());
+        let accelerations = plain(system, &accelerations(system, terms, selection)?);
+        let rows = selection.rows.iter();
+        let stated = rows.clone();
+        let stated = stated.map(|&row| &system.constraints[terms.constraint_index[row]]);
+        let positions = stated.filter(|own| own.kind == ConstraintKind::Holonomic);
+        let on_velocities = rows.map(|&row| terms.constraints[row]);
+        let finite: Vec<Expr> = positions
+            .map(|own| own.stated)
+            .chain(on_velocities)
+            .collect();
+        let finite = plain(system, &finite);
+        let all = [accelerations.clone(), finite.clone()].concat();
+        let is_variable = |j: &usize| {
+            let symbol = [system.coordinates[*j].q_symbol];
+            which == Coordinates::All || g.any_contains_any(&all, &symbol)
+        };
+        let kept: Vec<_> = (0..n)
+            .filter(is_variable)
+            .map(|j| &system.coordinates[j])
+            .collect();
+        let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+        let positions = kept.iter();
+        let symbols = positions.clone().map(|c| c.q_symbol);
+        let rates = positions.clone().map(|c| c.v);
+        let names = positions.clone().map(|c| c.name.clone());
+        let of_velocities = system.coordinates.iter().map(|c| format!("{}'", c.name));
+        let mut flow = Flow::of_rates(
+            g.clone(),
+            symbols.chain(system.velocity_symbols()).collect(),
+            rates.chain(accelerations).collect(),
+            Vec::new(),
+        );
+        flow.names = names.chain(of_velocities).collect();
+        flow.velocities = velocities;
+        let is_closed = |e: &Expr| flow.is_closed(system, *e);
+        let finite: Vec<Expr> = finite.into_iter().filter(is_closed).collect();
+        let conserved = candidates(system).into_iter();
+        let conserved = conserved.map(|(name, e)| (name, plain(system, &[e])[0]));
+        let conserved = conserved
             .filter(|(_, e)| flow.is_closed(system, *e))
             .collect();
         (flow.finite, flow.conserved) = (finite, conserved);
@@ -165,6 +265,28 @@ impl Flow {
     /// Whether the rates do not contain the time.
     pub fn is_autonomous(&self) -> bool {
         !self.graph.any_contains_any(&self.rates, &[self.time()])
+    }
+
+    /// The periods of the trigonometric functions of the time in the rates, ascending, at a state and these values of the parameters; none where the
+    /// rates depend on the time otherwise too.
+    pub fn periods(&self, z: &[f64], parameters: &[f64]) -> Vec<f64> {
+        let (g, time) = (&self.graph, self.time());
+        let (free, angles) = outside_angles(g, &self.rates);
+        let slopes: Vec<Expr> = angles.iter().map(|&e| g.diff(e, time)).collect();
+        if free.contains(&time) || g.any_contains_any(&slopes, &[time]) {
+            return Vec::new();
+        }
+        let value = |s: Symbol| {
+            let variable = self.variables.iter().position(|own| *own == s);
+            let variable = variable.map(|i| z[i]);
+            variable.or_else(|| Some(parameters[self.place(s)?]))
+        };
+        let rates = g.evaluate_f64(&slopes, &value).unwrap_or_default();
+        let rates = rates.into_iter().filter(|own| *own != 0.0);
+        let mut found: Vec<f64> = rates.map(|own| TAU / own.abs()).collect();
+        found.sort_by(f64::total_cmp);
+        found.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * *b);
+        found
     }
 
     /// The place of a parameter.
@@ -206,6 +328,33 @@ impl Flow {
         Some(DMatrix::from_row_slice(self.n(), self.n(), &found))
     }
 
+    /// How far a state is from where the equations say nothing, for these values of the parameters.
+    pub fn margins(&self, z: &[f64], parameters: &[f64]) -> Margins {
+        let value = |s: Symbol| {
+            let variable = self.variables.iter().position(|own| *own == s);
+            let variable = variable.map(|i| z[i]);
+            variable.or_else(|| Some(parameters[self.place(s)?]))
+        };
+        let numbers = |rows: &[Vec<Expr>]| {
+            let found = self.graph.evaluate_f64(&rows.concat(), &value);
+            let columns = rows.first().map_or(0, Vec::len);
+            found.map(|own| DMatrix::from_row_slice(rows.len(), columns, &own))
+        };
+        let part = |rows: &[Vec<Expr>]| match rows {
+            [] => 1.0,
+            rows => numbers(rows).map_or(0.0, |own| least_part(&own)),
+        };
+        let is_finite = |own: &DMatrix<f64>| own.iter().all(|x| x.is_finite());
+        let slopes = numbers(&self.divisors.slopes).ok().filter(is_finite);
+        Margins {
+            mass: part(&self.divisors.mass),
+            gradients: part(&self.divisors.gradients),
+            slope: slopes.map_or(f64::INFINITY, |own| {
+                own.iter().fold(0.0, |a, x| x.abs().max(a))
+            }),
+        }
+    }
+
     /// z at a state of coordinates and velocities.
     ///
     /// # Errors
@@ -245,6 +394,36 @@ pub(crate) fn plain(system: &System, es: &[Expr]) -> Vec<Expr> {
     let laws: Vec<(Expr, Expr)> = g.symbols_in(es).into_iter().filter_map(law).collect();
     let es = g.substitute_all(es, &laws);
     es.into_iter().map(|e| system.with_definitions(e)).collect()
+}
+
+/// The accelerations by multipliers, functions of coordinates and velocities.
+fn accelerations(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+) -> Result<Vec<Expr>, OrbitError> {
+    let (g, n) = (&system.graph, system.n());
+    if terms.order > 1 {
+        return Err(LinearizationError::OrderTooHigh { order: terms.order }.into());
+    }
+    let rows = &selection.rows;
+    let of_multipliers = |i: usize| rows.iter().map(move |&row| g.neg(terms.jacobian[row][i]));
+    let of_law = (0..n).flat_map(|i| {
+        terms.mass_matrix[i]
+            .iter()
+            .copied()
+            .chain(of_multipliers(i))
+    });
+    let zeros = || vec![g.zero(); rows.len()];
+    let of_constraints = rows
+        .iter()
+        .flat_map(|&row| [terms.jacobian[row].clone(), zeros()].concat());
+    let matrix: Vec<Expr> = of_law.chain(of_constraints).collect();
+    let right = rows.iter().map(|&row| terms.constraint_rate[row]);
+    let right: Vec<Expr> = terms.force.iter().copied().chain(right).collect();
+    let mut found = g.solve(&matrix, &right).map_err(|_| OrbitError::Singular)?;
+    found.truncate(n);
+    Ok(found)
 }
 
 /// Functions that often are integrals.

@@ -12,6 +12,7 @@
 use crate::flow::Flow;
 use crate::multipliers::eigenvalues;
 use crate::subspace::{kernel, least_squares, nullity};
+use chetaev_stability::singular::singular;
 use chetaev_symbolic::{Expr, Symbol};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -327,9 +328,7 @@ fn shifted(matrix: &DMatrix<Complex<f64>>, frequency: f64) -> DMatrix<Complex<f6
 
 /// The vector of unit length that a matrix shrinks most.
 fn null_vector(m: &DMatrix<Complex<f64>>) -> Option<ComplexVector> {
-    let found = m.clone().try_svd(false, true, f64::EPSILON, 10_000)?;
-    let values = found.singular_values.iter().enumerate();
-    let smallest = values.min_by(|a, b| a.1.total_cmp(b.1))?.0;
-    let rows = found.v_t?;
-    Some(rows.row(smallest).adjoint())
+    let right = singular(m)?.right;
+    let last = right.ncols().checked_sub(1)?;
+    Some(right.column(last).into())
 }

@@ -7,6 +7,7 @@ use crate::branch::{Equations, Kind, Linearized};
 use crate::error::OrbitError;
 use crate::flow::Flow;
 use crate::multipliers::{split, Named, Spectrum};
+use crate::subspace::complement;
 use crate::variational::{Column, Extended, Order, Variational};
 use chetaev_integrate::Output;
 use chetaev_motion::functions::Functions;
@@ -45,6 +46,8 @@ const PLACES: usize = 3;
 const BESIDE: f64 = 1e-2;
 /// A rate below this part of its terms vanishes.
 const CONSTANT: f64 = 1e-9;
+/// Rates that differ by less a period later, in parts of their size, are the same.
+const REPEATED: f64 = 1e-7;
 /// An orbit that runs a shorter way in a period, in parts of the size of its state, is a steady motion.
 const AT_REST: f64 = 1e-6;
 /// Test functions below this vanish by structure.
@@ -210,6 +213,28 @@ impl Shooting<'_> {
     }
 }
 
+impl Shooting<'_> {
+    /// An error where the rates are not the same a period later: what closes after that time does not repeat.
+    fn repeat(&mut self, z: &[f64], p: f64) -> Result<(), OrbitError> {
+        let (period, _) = self.period(z, p)?;
+        let (mut change, mut size) = (0.0_f64, 0.0_f64);
+        for k in 1..=PLACES {
+            // No whole part of the period.
+            let t = period * (k as f64).sqrt().fract();
+            let (now, later) = (self.rates(t, z)?, self.rates(t + period, z)?);
+            change = change.max((&later - &now).amax());
+            size = size.max(now.amax());
+        }
+        if change <= REPEATED * size {
+            return Ok(());
+        }
+        Err(OrbitError::NotRepeated {
+            period,
+            own: self.flow.periods(z, &self.values),
+        })
+    }
+}
+
 impl Equations for Shooting<'_> {
     fn what(&self) -> &'static str {
         "periodic orbit"
@@ -285,9 +310,11 @@ impl Equations for Shooting<'_> {
             .row_iter()
             .map(|row| ("a finite constraint".to_owned(), row.transpose()))
             .collect();
+        // An integral is one on admissible states, and its gradient is known up to those of finite constraints.
+        let admissible = complement(n, &slopes.transpose());
         for (k, (name, _)) in self.flow.conserved.iter().enumerate() {
             let gradient = DVector::from_column_slice(&gradients[k * n..(k + 1) * n]);
-            let change = monodromy.tr_mul(&gradient) - &gradient;
+            let change = admissible.tr_mul(&(monodromy.tr_mul(&gradient) - &gradient));
             let is_invariant =
                 change.norm() <= INVARIANT * gradient.norm() * (1.0 + monodromy.norm());
             if is_invariant && self.is_constant(k, &x[..n])? {
@@ -317,28 +344,19 @@ impl Equations for Shooting<'_> {
         Ok(found)
     }
 
-    fn tests(&self, values: &[Complex<f64>]) -> Vec<f64> {
+    fn tests(&self, values: &[Complex<f64>], _: f64) -> Vec<f64> {
         let one = Complex::new(1.0, 0.0);
-        let unit: Complex<f64> = values
-            .iter()
-            .map(|l| (l - one) / (1.0 + l.norm()))
-            .product();
-        let doubling: Complex<f64> = values
-            .iter()
-            .map(|l| (l + one) / (1.0 + l.norm()))
-            .product();
-        let mut pairs = one;
-        for (i, a) in values.iter().enumerate() {
-            for b in &values[i + 1..] {
-                let own = (a * b - one) / (1.0 + a.norm() * b.norm());
-                pairs *= if own.norm() < STRUCTURAL {
-                    Complex::new(f64::NAN, 0.0)
-                } else {
-                    own
-                };
-            }
-        }
-        vec![unit.re, doubling.re, pairs.re]
+        let through = |at: Complex<f64>| -> Complex<f64> {
+            let parts = values.iter().map(|l| (l - at) / (1.0 + l.norm()));
+            parts.product()
+        };
+        let pairs: Complex<f64> = pairs(values).product();
+        vec![through(one).re, through(-one).re, pairs.re]
+    }
+
+    fn vanish(&self, values: &[Complex<f64>]) -> Vec<bool> {
+        let is_any = pairs(values).any(|own| own.norm() < STRUCTURAL);
+        vec![false, false, is_any]
     }
 
     fn kind(
@@ -364,13 +382,23 @@ impl Equations for Shooting<'_> {
 
     fn accepted(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
         self.set(p)?;
-        if !self.is_forced {
+        if self.is_forced {
+            self.repeat(x, p)?;
+        } else {
             let n = self.flow.n();
             let along = self.rates(0.0, &x[..n])?;
             self.phase = Some((DVector::from_column_slice(&x[..n]), along));
         }
         Ok(())
     }
+}
+
+/// How far the products of two multipliers are from 1.
+fn pairs(values: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64>> + '_ {
+    let beside = |i: usize| values[i + 1..].iter();
+    let part = |a: &Complex<f64>, b: &Complex<f64>| (a * b - 1.0) / (1.0 + a.norm() * b.norm());
+    let all = values.iter().enumerate();
+    all.flat_map(move |(i, a)| beside(i).map(move |b| part(a, b)))
 }
 
 /// Rows in which a return is looked for.

@@ -55,7 +55,8 @@ impl Sensitivities {
     }
 }
 
-/// The sensitivities of a motion to parameters and initial values, at the times that `output` asks for.
+/// The sensitivities of a motion to parameters and initial values, at the times that `output` asks for. Where the independent velocities of the
+/// start do not serve to the end all velocities are variables.
 ///
 /// # Errors
 /// [`OrbitError`].
@@ -63,26 +64,43 @@ pub fn sensitivities(
     system: &System,
     (terms, selection): (&MotionTerms, &Selection),
     beginning: &Beginning,
-    (by, order): (&[String], Order),
+    asked: (&[String], Order),
     (end, output): (f64, Output),
 ) -> Result<Sensitivities, OrbitError> {
-    let g = &system.graph;
     let flow = Flow::of_system(
         system,
         terms,
         selection,
         (Coordinates::All, &beginning.point),
     )?;
+    let of = (system, terms, selection);
+    match of_flow(&flow, of, beginning, asked, (end, output.clone())) {
+        Err(OrbitError::EndsEarly { .. }) => {
+            let flow = Flow::in_all_velocities(system, terms, selection, Coordinates::All)?;
+            of_flow(&flow, of, beginning, asked, (end, output))
+        }
+        other => other,
+    }
+}
+
+fn of_flow(
+    flow: &Flow,
+    (system, terms, selection): (&System, &MotionTerms, &Selection),
+    beginning: &Beginning,
+    (by, order): (&[String], Order),
+    (end, output): (f64, Output),
+) -> Result<Sensitivities, OrbitError> {
+    let g = &system.graph;
     let mut given = beginning.given.clone();
     let symbols: Vec<Symbol> = by
         .iter()
-        .map(|name| varied(system, &flow, &mut given, name))
+        .map(|name| varied(system, flow, &mut given, name))
         .collect::<Result<_, _>>()?;
     let columns: Vec<Column> = symbols.iter().map(|&s| Column::Parameter(s)).collect();
-    let mut motion = Variational::new(&flow, columns, order)?;
+    let mut motion = Variational::new(flow, columns, order)?;
     let start = Start {
         system,
-        flow: &flow,
+        flow,
         terms,
         selection,
         beginning,
@@ -96,7 +114,7 @@ pub fn sensitivities(
     let of = (&flow.variables[..], &all);
     let (first, second) = derivatives(g, &quantities, of, (&motion.columns, &motion.pairs));
     let mut binding = flow.binding();
-    binding.variables = [vec![flow.time()], variables(&flow, &all)].concat();
+    binding.variables = [vec![flow.time()], variables(flow, &all)].concat();
     let outputs = [quantities, first.concat(), second.concat()].concat();
     let groups = [("outputs", outputs)];
     let mut functions =

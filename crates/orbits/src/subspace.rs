@@ -1,6 +1,7 @@
 //! Subspaces in numbers: singular vectors, complements, least squares.
 
-use nalgebra::{DMatrix, DVector, SVD};
+use chetaev_stability::singular::{singular, Singular};
+use nalgebra::{DMatrix, DVector};
 
 /// `m = u diag(s) vᵀ` with square u and v, s descending, for a matrix filled up with zeros to a square.
 pub(crate) struct Decomposed {
@@ -9,24 +10,18 @@ pub(crate) struct Decomposed {
     pub(crate) v: DMatrix<f64>,
 }
 
-/// Steps of the method for singular values.
-const STEPS: usize = 10_000;
-
-/// The singular value decomposition; `None` where an entry is no number.
+/// The singular value decomposition; `None` where an entry is no number, or there is none.
 pub(crate) fn decomposed(m: &DMatrix<f64>) -> Option<Decomposed> {
-    let size = m.nrows().max(m.ncols());
-    if size == 0 || m.iter().any(|x| !x.is_finite()) {
-        return None;
-    }
-    let square = m.clone().resize(size, size, 0.0);
-    let found = SVD::try_new(square, true, true, f64::EPSILON, STEPS)?;
-    let (u, v) = (found.u?, found.v_t?.transpose());
-    let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by(|&a, &b| found.singular_values[b].total_cmp(&found.singular_values[a]));
-    Some(Decomposed {
-        u: u.select_columns(&order),
-        s: order.iter().map(|&i| found.singular_values[i]).collect(),
-        v: v.select_columns(&order),
+    let Singular {
+        left,
+        values,
+        right,
+    } = singular(m)?;
+    let is_any = !values.is_empty();
+    is_any.then_some(Decomposed {
+        u: left,
+        s: values,
+        v: right,
     })
 }
 

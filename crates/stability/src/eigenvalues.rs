@@ -1,5 +1,6 @@
 //! Eigenvalues in double precision.
 
+use crate::singular::singular;
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -17,24 +18,30 @@ pub fn eigenvalues(left: &[Vec<f64>], right: &[Vec<f64>]) -> Option<Vec<Complex<
     Some(found)
 }
 
-/// Steps of the QR method for one matrix: some two for each eigenvalue are usual.
-const STEPS: usize = 1_000;
+/// Steps of the QR method for each eigenvalue: some two are usual.
+const STEPS: usize = 30;
+/// How often the QR method begins again.
+const BEGINNINGS: usize = 40;
 
 /// The eigenvalues of a square matrix, in no order. The double shifts of the QR method may go round without end where the spectrum is its own
-/// mirror image, as that of a conservative system; the same matrix plus a multiple of the unit matrix has another.
+/// mirror image, as that of a conservative system; one step with a shift that has nothing to do with the matrix leads out of such a cycle
+/// (exceptional shifts: Martin, Peters and Wilkinson 1970, Numer. Math. 14; Batterson 1990 on the cycles).
 ///
 /// The QR method is accurate to rounding of the largest entry, whatever the units of the variables: those are chosen first.
 pub(crate) fn spectrum(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
-    let n = matrix.nrows();
     let Balanced { matrix, unit, .. } = balanced(matrix);
-    let size = matrix.norm();
-    [0.0, 0.37, -0.61].into_iter().find_map(|part| {
-        let shift = part * size;
-        let moved = &matrix + DMatrix::identity(n, n) * shift;
-        let schur = Schur::try_new(moved, f64::EPSILON, STEPS)?;
-        let found = schur.complex_eigenvalues();
-        Some(found.iter().map(|l| (*l - shift) * unit).collect())
-    })
+    let (n, size) = (matrix.nrows(), matrix.norm());
+    let mut own = matrix;
+    for beginning in 1..=BEGINNINGS {
+        if let Some(schur) = Schur::try_new(own.clone(), f64::EPSILON, STEPS * n) {
+            let found = schur.complex_eigenvalues();
+            return Some(found.iter().map(|l| *l * unit).collect());
+        }
+        let shift = DMatrix::identity(n, n) * (size * (0.75 * beginning as f64).sin());
+        let (q, r) = (own - &shift).qr().unpack();
+        own = r * q + shift;
+    }
+    None
 }
 
 /// A matrix in other units of its variables and of its eigenvalues: A = u D B D⁻¹, D diagonal.
@@ -102,8 +109,9 @@ pub fn unreached(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<Complex<f64>>> {
             };
             shift + known
         };
-        let values = DMatrix::from_fn(n, n + inputs, entry).singular_values();
-        values.min()
+        let found = singular(&DMatrix::from_fn(n, n + inputs, entry));
+        // Filled up to a square, it has one more zero for each input.
+        found.map_or(f64::NAN, |own| own.values[n - 1])
     };
     let mut all = spectrum(&a)?;
     all.retain(|l| l.im >= 0.0 && distance(l) < UNREACHED);
@@ -162,16 +170,9 @@ pub fn mode(
             own
         }
     };
-    let decomposed = DMatrix::from_fn(n, n, entry).try_svd(false, true, f64::EPSILON, 0)?;
-    let smallest = decomposed
-        .singular_values
-        .iter()
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(b.1))?
-        .0;
-    let rows = decomposed.v_t?;
-    let own = rows.row(smallest);
-    let vector: Vec<Complex<f64>> = own.iter().zip(&scale).map(|(z, d)| z.conj() * *d).collect();
+    let right = singular(&DMatrix::from_fn(n, n, entry))?.right;
+    let smallest = right.column(n.checked_sub(1)?);
+    let vector: Vec<Complex<f64>> = smallest.iter().zip(&scale).map(|(z, d)| z * *d).collect();
     let largest = vector.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     let length = vector.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
     let turn = largest.conj() / (largest.norm() * length);

@@ -5,6 +5,7 @@ use crate::problem::LinearizationError;
 use crate::real_roots::sign_of;
 use crate::real_values::{corners, not_real};
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
+use crate::singular::least_part;
 use crate::steady::{at_point, completed, controls, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
@@ -360,8 +361,7 @@ fn is_singular(
         return false;
     }
     let count = gradients.len() / n;
-    let singular = DMatrix::from_row_slice(count, n, &entries).singular_values();
-    if singular.min() > CLOSE * singular.max() {
+    if least_part(&DMatrix::from_row_slice(count, n, &entries)) > CLOSE {
         return false;
     }
     let exact = at_point(g, gradients, values);

@@ -1,10 +1,11 @@
 //! Motions of which guesses are given: among all steady motions the one with the values that are given, nearest to those that are guessed.
 //!
-//! All steady motions are solved for exactly ([`steady_set`]), so that what is found is exact and no other is nearer. A free parameter of a family
-//! takes the value of the variable that it stands for, given or guessed.
+//! All steady motions with the values that are given are solved for exactly ([`with_given`]), so that what is found is exact and no other is
+//! nearer. A free parameter of a family takes the value that is guessed for the variable that it stands for. Where the mass matrix is singular no
+//! motion is meant if there is another.
 
 use crate::problem::LinearizationError;
-use crate::steady_set::{steady_set, Found, SteadySet};
+use crate::steady_set::{with_given, Found, SteadySet};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::{Expr, Symbol};
 use std::borrow::Cow;
@@ -30,7 +31,8 @@ pub fn near<'m>(
         motion: motion.name.clone(),
         why,
     };
-    let set = steady_set(system, terms, selection, values);
+    let given = given(system, motion);
+    let set = with_given((system, terms, selection), values, &given);
     let set = set.map_err(|problem| not_found(problem.to_string()))?;
     let known = known(system, values);
     let asked = Asked {
@@ -38,9 +40,13 @@ pub fn near<'m>(
         motion,
         known: &known,
     };
-    let nearest = set.found.iter().filter_map(|own| asked.member(&set, own));
-    let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some((_, found)) = nearest {
+    let member = |own: &Found| {
+        let (distance, found) = asked.member(&set, own)?;
+        Some((own.is_singular, distance, found))
+    };
+    let nearest = set.found.iter().filter_map(member);
+    let nearest = nearest.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    if let Some((_, _, found)) = nearest {
         return Ok(Cow::Owned(found));
     }
     let are_all_compared = set.found.iter().all(|own| own.motion.is_some());
@@ -50,6 +56,20 @@ pub fn near<'m>(
         "those without a closed form were not compared, and no other has the values that are given"
             .into()
     }))
+}
+
+/// What a motion gives of positions and velocities.
+fn given(system: &System, motion: &SteadyMotion) -> Vec<(Expr, Expr)> {
+    let coordinates = system.coordinates.iter().enumerate();
+    let sides = coordinates.flat_map(|(j, c)| {
+        let position = (c.q, (j, 0), motion.positions[j]);
+        [position, (c.v, (j, 1), motion.velocities[j])]
+    });
+    let is_given = |own: &(Expr, (usize, u32), Option<Expr>)| !motion.guesses.contains(&own.1);
+    let sides = sides.filter(is_given);
+    sides
+        .filter_map(|(e, _, value)| Some((e, value?)))
+        .collect()
 }
 
 /// Parameters in numbers: those that are put in, others as the model states them.

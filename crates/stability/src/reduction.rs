@@ -4,6 +4,7 @@
 //! not ignorable brings its own rate, which may depend on further ones. What is left out moves by quadratures.
 
 use crate::problem::LinearizationError;
+use crate::singular::least_part;
 use chetaev_mechanics::characteristics::Characteristics;
 use chetaev_mechanics::mass;
 use chetaev_mechanics::reduced_equations::ReducedEquations;
@@ -227,7 +228,7 @@ fn is_finite(g: &Graph, c: &Characteristics, point: &[(Symbol, f64)]) -> bool {
 
 /// The dependent velocities for which the constraints are best conditioned at a state: the columns that elimination with exchanges of rows
 /// and columns takes first.
-fn conditioned(
+pub fn conditioned(
     system: &System,
     terms: &MotionTerms,
     selection: &Selection,
@@ -291,10 +292,7 @@ pub fn may_be_speeds(
         let values: BTreeMap<Symbol, f64> =
             symbols.map(|s| (s, generator.between(0.3, 1.3))).collect();
         let found = g.evaluate_f64(&entries, &|s| values.get(&s).copied());
-        found.is_ok_and(|found| {
-            let singular = DMatrix::from_row_slice(n, n, &found).singular_values();
-            singular.min() > SINGULAR * singular.max()
-        })
+        found.is_ok_and(|found| least_part(&DMatrix::from_row_slice(n, n, &found)) > SINGULAR)
     })
 }
 

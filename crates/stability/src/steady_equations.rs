@@ -7,6 +7,7 @@ use crate::reduction::{without, ClosedSystem, OperatingPoint, Speeds};
 use crate::steady::{at_point, closed, controls};
 use crate::steady_value::{fraction, SteadySetError, Value};
 use chetaev_mechanics::constraint::ConstraintKind;
+use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::polynomial::normal_form::normal_form;
@@ -37,6 +38,8 @@ pub(crate) struct Asked<'v> {
     pub(crate) sought: Sought,
     /// Values of parameters.
     pub(crate) values: &'v [(Expr, Expr)],
+    /// Values of positions and velocities that are given.
+    pub(crate) given: &'v [(Expr, Expr)],
     pub(crate) speeds: Speeds,
 }
 
@@ -46,6 +49,7 @@ pub(crate) struct Equations<'a> {
     own: ClosedSystem,
     sought: Sought,
     values: Vec<(Expr, Expr)>,
+    given: Vec<(Expr, Expr)>,
     /// Rates of coordinates, forces, finite and implicit constraints.
     pub(crate) vanishing: Vec<Expr>,
     /// The slopes of the velocities by the quasi-velocities: where one has no value these do not serve.
@@ -65,7 +69,7 @@ impl<'a> Equations<'a> {
         selection: &Selection,
         asked: Asked<'_>,
     ) -> Result<Equations<'a>, SteadySetError> {
-        let (g, values) = (&system.graph, asked.values);
+        let (g, values, given) = (&system.graph, asked.values, asked.given);
         let numbers = numbers(system);
         let operating = OperatingPoint {
             numbers: &numbers,
@@ -84,8 +88,9 @@ impl<'a> Equations<'a> {
                 own.speeds_at_rest(system)
             }
         };
+        vanishing.extend(velocities_given(system, &own, given));
         let controls = controls(system, &vanishing);
-        let replacements: [&[(Expr, Expr)]; 3] = [&controls, &at_rest, values];
+        let replacements: [&[(Expr, Expr)]; 4] = [&controls, &at_rest, given, values];
         let vanishing = normal(g, vanishing, &replacements)?;
         let slopes = at_point(g, &own.characteristics.basis.concat(), &replacements);
         let regular = implicit.iter().map(|(e, symbol)| g.diff(*e, *symbol));
@@ -95,9 +100,11 @@ impl<'a> Equations<'a> {
         if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
             return Err(LinearizationError::NotAutonomous.into());
         }
+        let is_given = |j: usize| given.iter().any(|(e, _)| *e == system.coordinates[j].q);
         let is_unknown = |j: &usize| {
-            own.coordinates.contains(j)
-                || g.any_contains_any(&vanishing, &[system.coordinates[*j].q_symbol])
+            let symbol = [system.coordinates[*j].q_symbol];
+            let occurs = || g.any_contains_any(&vanishing, &symbol);
+            !is_given(*j) && (own.coordinates.contains(j) || occurs())
         };
         let coordinates: Vec<usize> = (0..system.n()).filter(is_unknown).collect();
         let known: Vec<Expr> = at_rest.iter().map(|(speed, _)| *speed).collect();
@@ -106,6 +113,7 @@ impl<'a> Equations<'a> {
             system,
             sought: asked.sought,
             values: values.to_vec(),
+            given: given.to_vec(),
             vanishing,
             slopes: moving(g, slopes),
             regular,
@@ -147,7 +155,8 @@ impl<'a> Equations<'a> {
         let symbols = self.unknowns.iter().map(|(s, _)| g.symbol_expr(*s));
         let pairs = symbols.zip(values);
         let pairs: Vec<(Expr, Expr)> = pairs.filter_map(|(s, v)| Some((s, exact(v)?))).collect();
-        is_singular_at(g, &self.own.equations.mass, [&pairs, &self.values])
+        let known = [&self.given[..], &self.values].concat();
+        is_singular_at(g, &self.own.equations.mass, [&pairs, &known])
     }
 
     pub(crate) fn speeds(&self) -> Vec<(String, Expr)> {
@@ -161,7 +170,15 @@ impl<'a> Equations<'a> {
     /// The coordinates that may be anywhere.
     pub(crate) fn others(&self) -> Vec<usize> {
         let all = 0..self.system.n();
-        all.filter(|j| !self.coordinates.contains(j)).collect()
+        let is_open = |&j: &usize| !self.coordinates.contains(&j) && self.position(j).is_none();
+        all.filter(is_open).collect()
+    }
+
+    /// The position of a coordinate that is given.
+    fn position(&self, j: usize) -> Option<Expr> {
+        let mut given = self.given.iter();
+        let found = given.find(|(e, _)| *e == self.system.coordinates[j].q);
+        found.map(|(_, value)| *value)
     }
 
     pub(crate) fn ignorable(&self) -> Vec<String> {
@@ -192,7 +209,8 @@ impl<'a> Equations<'a> {
         let at = |place: Expr| {
             let origin = directed.iter().map(|&j| (system.coordinates[j].q, place));
             let origin: Vec<(Expr, Expr)> = origin.collect();
-            at_point(g, velocities, &[&controls, &self.values, &pairs, &origin])
+            let lists = [&controls, &self.given, &self.values, &pairs, &origin];
+            at_point(g, velocities, &lists.map(Vec::as_slice))
         };
         let is_finite = |es: &[Expr]| {
             let found = g.evaluate_f64(es, &|_| Some(SOMEWHERE));
@@ -211,7 +229,9 @@ impl<'a> Equations<'a> {
         let position = |j: usize| {
             let own = self.coordinates.iter().position(|&own| own == j);
             let origin = directed.contains(&j).then_some(place);
-            own.map(|at| values[at]).or(origin)
+            own.map(|at| values[at])
+                .or(origin)
+                .or_else(|| self.position(j))
         };
         SteadyMotion {
             name: name.into(),
@@ -221,6 +241,18 @@ impl<'a> Equations<'a> {
             over: None,
         }
     }
+}
+
+/// What vanishes where velocities are as they are given.
+fn velocities_given(system: &System, own: &ClosedSystem, given: &[(Expr, Expr)]) -> Vec<Expr> {
+    let g = &system.graph;
+    let coordinates = system.coordinates.iter();
+    let pairs = coordinates.zip(&own.characteristics.velocities);
+    let difference = |(c, &velocity): (&Coordinate, &Expr)| {
+        let found = given.iter().find(|(e, _)| *e == c.v)?;
+        Some(g.sub(velocity, found.1))
+    };
+    pairs.filter_map(difference).collect()
 }
 
 /// The parameters with their values in numbers.

@@ -37,12 +37,33 @@ pub fn steady_set(
     all_of(Sought::SteadyMotions, (system, terms, selection), values)
 }
 
+/// Those with values of positions and velocities that are given: these are put into the equations before they are solved.
+///
+/// # Errors
+/// [`SteadySetError`] where they cannot all be found so.
+pub fn with_given(
+    (system, terms, selection): (&System, &MotionTerms, &Selection),
+    values: &[(Expr, Expr)],
+    given: &[(Expr, Expr)],
+) -> Result<SteadySet, SteadySetError> {
+    let which = (Sought::SteadyMotions, given);
+    all_with(which, (system, terms, selection), values)
+}
+
 /// The states of rest, or all steady motions.
 ///
 /// # Errors
 /// [`SteadySetError`] where they cannot all be found so.
 pub fn all_of(
     sought: Sought,
+    system: (&System, &MotionTerms, &Selection),
+    values: &[(Expr, Expr)],
+) -> Result<SteadySet, SteadySetError> {
+    all_with((sought, &[]), system, values)
+}
+
+fn all_with(
+    (sought, given): (Sought, &[(Expr, Expr)]),
     (system, terms, selection): (&System, &MotionTerms, &Selection),
     values: &[(Expr, Expr)],
 ) -> Result<SteadySet, SteadySetError> {
@@ -59,6 +80,7 @@ pub fn all_of(
         let asked = Asked {
             sought,
             values,
+            given,
             speeds,
         };
         in_chart(system, terms, chart, asked)

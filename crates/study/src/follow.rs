@@ -24,10 +24,12 @@ use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
 use chetaev_orbits::{Flow, OrbitError};
+use chetaev_stability::guess::near;
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::steady::numbers;
 use chetaev_stability::steady_set::steady_set;
 use chetaev_symbolic::{Expr, Symbol};
+use std::borrow::Cow;
 
 /// What is followed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -122,34 +124,62 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
     let range = wanted.over.map(|text| range(model, text)).transpose()?;
     let (about, point) = state(model, &system, &prepared, wanted)?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let which = (Coordinates::NotIgnorable, &point[..]);
-    let flow = Flow::of_system(&system, terms, selection, which)?;
-    let parameter = range
-        .as_ref()
-        .map(|own| parameter(&flow, own))
-        .transpose()?;
-    let period = wanted.period.map(|text| model.expression(text));
-    let period = period.transpose().map_err(StabilityError::Expression)?;
-    let period = period.map(|e| system.with_definitions(e));
-    let start = flow.state(&point)?;
-    let span = (range.as_ref(), pace(wanted)?);
-    let (branch, periods) = if wanted.orbit {
-        orbits(&flow, &start, (parameter, period), (model, &system), span)?
-    } else {
-        (steady_motions(&flow, &start, parameter, span)?, Vec::new())
-    };
-    let symbols = system.coordinates.iter();
-    let ignorable = symbols.filter(|c| !flow.variables.contains(&c.q_symbol));
-    Ok(Followed {
-        ignorable: ignorable.map(|c| c.name.clone()).collect(),
-        name: system.name.clone(),
+    let own = Begun {
+        model,
+        system: &system,
         about,
-        variables: flow.names.clone(),
-        is_orbit: wanted.orbit,
-        periods,
         range,
-        branch,
-    })
+        point,
+    };
+    let kept = Coordinates::NotIgnorable;
+    let flow = Flow::of_system(&system, terms, selection, (kept, &own.point[..]))?;
+    match own.follow(&flow, wanted) {
+        // The independent velocities of the start do not serve all along the orbit.
+        Err(FollowError::Orbit(OrbitError::EndsEarly { .. })) => {
+            let flow = Flow::in_all_velocities(&system, terms, selection, kept)?;
+            own.follow(&flow, wanted)
+        }
+        other => other,
+    }
+}
+
+/// What is followed from where.
+struct Begun<'a> {
+    model: &'a Model,
+    system: &'a System,
+    about: String,
+    range: Option<Range>,
+    /// Coordinates, velocities and parameters.
+    point: Vec<(Symbol, f64)>,
+}
+
+impl Begun<'_> {
+    fn follow(&self, flow: &Flow, wanted: &Wanted<'_>) -> Result<Followed, FollowError> {
+        let (model, system, range) = (self.model, self.system, self.range.as_ref());
+        let parameter = range.map(|own| parameter(flow, own)).transpose()?;
+        let period = wanted.period.map(|text| model.expression(text));
+        let period = period.transpose().map_err(StabilityError::Expression)?;
+        let period = period.map(|e| system.with_definitions(e));
+        let start = flow.state(&self.point)?;
+        let span = (range, pace(wanted)?);
+        let (branch, periods) = if wanted.orbit {
+            orbits(flow, &start, (parameter, period), (model, system), span)?
+        } else {
+            (steady_motions(flow, &start, parameter, span)?, Vec::new())
+        };
+        let symbols = system.coordinates.iter();
+        let ignorable = symbols.filter(|c| !flow.variables.contains(&c.q_symbol));
+        Ok(Followed {
+            ignorable: ignorable.map(|c| c.name.clone()).collect(),
+            name: system.name.clone(),
+            about: self.about.clone(),
+            variables: flow.names.clone(),
+            is_orbit: wanted.orbit,
+            periods,
+            range: self.range.clone(),
+            branch,
+        })
+    }
 }
 
 /// How far and how finely.
@@ -203,7 +233,10 @@ fn state(
     if motion.name == "start" {
         return Ok((motion.name.clone(), initial(model, system, prepared)?));
     }
-    let point = of_motion(motion, system, prepared, &values)?;
+    // A guess that leads to no motion exactly is one for Newton's method.
+    let meant = near(system, terms, selection, (motion, &values));
+    let meant = meant.unwrap_or(Cow::Borrowed(motion));
+    let point = of_motion(&meant, system, prepared, &values)?;
     Ok((motion.name.clone(), point))
 }
 

@@ -16,7 +16,7 @@ use chetaev_orbits::along::{along, Along};
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::sensitivity::{sensitivities, Beginning, Sensitivities};
 use chetaev_orbits::variational::Order;
-use chetaev_orbits::Flow;
+use chetaev_orbits::{Flow, OrbitError};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
@@ -101,15 +101,26 @@ pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
     let options = StudyOptions::default();
     let t = initial_data(model, &system, &options)?.t;
     let end = settings(model, &system, t, &options)?.t_end;
-    let which = (Coordinates::NotIgnorable, &point[..]);
-    let flow = Flow::of_system(&system, &prepared.terms, &prepared.selection, which)?;
-    let start = flow.state(&point)?;
-    let output = Output::Every((end - t).abs() / ROWS);
-    Ok(AlongMotion {
-        rows: along(&flow, &start, (t, end), output)?,
-        name: system.name.clone(),
-        variables: flow.names,
-    })
+    let of_flow = |flow: Flow| -> Result<AlongMotion, OrbitError> {
+        let start = flow.state(&point)?;
+        let output = Output::Every((end - t).abs() / ROWS);
+        Ok(AlongMotion {
+            rows: along(&flow, &start, (t, end), output)?,
+            name: system.name.clone(),
+            variables: flow.names,
+        })
+    };
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let all = Coordinates::NotIgnorable;
+    let flow = Flow::of_system(&system, terms, selection, (all, &point[..]))?;
+    match of_flow(flow) {
+        // The independent velocities of the start do not serve to the end.
+        Err(OrbitError::EndsEarly { .. }) => {
+            let flow = Flow::in_all_velocities(&system, terms, selection, all)?;
+            Ok(of_flow(flow)?)
+        }
+        other => Ok(other?),
+    }
 }
 
 impl AlongMotion {

@@ -7,7 +7,7 @@
 mod search;
 pub(crate) mod words;
 
-pub use search::{Near, Search};
+pub use search::{Near, Search, Singular};
 
 use crate::follow::FollowError;
 use crate::stability::error::StabilityError;

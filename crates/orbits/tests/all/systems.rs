@@ -10,14 +10,14 @@ use chetaev_integrate::Output;
 use chetaev_mechanics::{Prepared, System};
 use chetaev_model::load;
 use chetaev_orbits::along::along;
-use chetaev_orbits::branch::{follow, Kind};
+use chetaev_orbits::branch::{follow, End, Kind, Pace};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::mode::{Deviation, LinearMotion};
 use chetaev_orbits::periodic::Shooting;
 use chetaev_orbits::sensitivity::{sensitivities, Beginning};
 use chetaev_orbits::variational::Order;
-use chetaev_orbits::Flow;
+use chetaev_orbits::{Flow, OrbitError};
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
 use chetaev_stability::linearization::linearize;
 use chetaev_symbolic::{Expr, Symbol};
@@ -180,7 +180,177 @@ w = "phi'"
         );
     }
     assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
     is_close(found.special[0].point.parameter, 0.0, 1e-10);
+}
+
+/// A conical pendulum at any speed: of its family of dimension 1 the eigenvalues are 0 and ±i φ' √(1 + 3 cos²θ) (Whittaker 1937, § 55), where
+/// φ'² cos θ = g/l, so that it is nowhere unstable. Velocities that vanish do so to rounding, and the matrices are nearly of lower rank.
+#[test]
+fn a_conical_pendulum_is_stable() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta", "phi"]
+parameters = { g = 9 }
+[lagrangian]
+T = "1/2 (theta'^2 + sin(theta)^2 phi'^2)"
+V = "-g cos(theta)"
+"#,
+        &[("theta", 1.0), ("phi", 0.0), ("theta'", 0.0), ("phi'", 4.0)],
+    );
+    let g = flow.graph.intern_symbol("g", 0);
+    let mut equations = Equilibria::new(&flow, Some(g)).unwrap();
+    let start = [1.0, 0.0, 4.0];
+    let pace = Pace {
+        step: 0.01,
+        ..points(500)
+    };
+    let found = follow(&mut equations, (&start, 9.0), (1.0, 20.0), pace).unwrap();
+    assert_eq!(found.special.len(), 0, "{:?}", found.special);
+    assert!(found.points.len() > 80);
+    for own in &found.points {
+        let place = |name: &str| flow.names.iter().position(|own| own == name).unwrap();
+        let (theta, rate) = (own.unknowns[place("theta")], own.unknowns[place("phi'")]);
+        is_close(rate * rate * theta.cos(), own.parameter, 1e-12);
+        let frequency = rate * (1.0 + 3.0 * theta.cos().powi(2)).sqrt();
+        assert_eq!(own.spectrum.values.len(), 2);
+        for (value, sign) in own.spectrum.values.iter().zip([-1.0, 1.0]) {
+            is_close(value.re, 0.0, 1e-12);
+            is_close(value.im, sign * frequency, 1e-12);
+        }
+    }
+}
+
+/// A charge on a hill in a magnetic field, x'' = B y' + x, y'' = −B x' + y, with the eigenvalues ±√(1 − B²/4) ± i B/2 for |B| < 2: the double shifts of
+/// the QR method go round without end there.
+#[test]
+fn a_charge_on_a_hill_is_followed_to_the_ends() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y"]
+parameters = { p = 1.5 }
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "-1/2 (x^2 + y^2)"
+[forces]
+x = "p y'"
+y = "-p x'"
+"#,
+        &[("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)],
+    );
+    let parameter = flow.graph.intern_symbol("p", 0);
+    let mut equations = Equilibria::new(&flow, Some(parameter)).unwrap();
+    let found = follow(&mut equations, (&[0.0; 4], 1.5), (-1.0, 1.9), points(500)).unwrap();
+    assert_eq!(found.ends, [End::Range; 2]);
+    for own in &found.points {
+        let half = 0.5 * own.parameter;
+        for value in &own.spectrum.values {
+            is_close(value.re.abs(), (1.0 - half * half).sqrt(), 1e-12);
+            is_close(value.im.abs(), half.abs(), 1e-12);
+        }
+    }
+}
+
+/// Zeros of conservative systems, where λ² passes zero: a spring of stiffness p, a bead on a hoop at W² = g/R, and the fold of x'' = p − x². What
+/// exists at the stated value alone is a branch that crosses, and no family: with V = (p − 1) x²/2 + y²/2, at p = 1 every x is one of rest.
+#[test]
+fn zeros_of_conservative_systems() {
+    let model = |coordinates: &str, value: f64, energy: &str| {
+        format!(
+            "coordinates = [{coordinates}]\nparameters = {{ p = {value} }}\n[lagrangian]\nL = \"{energy}\"\n"
+        )
+    };
+    let rest = [("x", 0.0), ("x'", 0.0)];
+    let spring = model("\"x\"", 2.0, "1/2 x'^2 - 1/2 p x^2");
+    let found = happens(&spring, &rest, (-1.0, 2.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 0.0, 1e-14);
+    let bead = model("\"x\"", 5.0, "1/2 x'^2 + 1/2 p^2 sin(x)^2 + 9 cos(x)");
+    let found = happens(&bead, &rest, (0.0, 5.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 3.0, 1e-14);
+    let fold = model("\"x\"", 4.0, "1/2 x'^2 - 1/3 x^3 + p x");
+    let found = happens(&fold, &[("x", 2.0), ("x'", 0.0)], (-1.0, 4.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::Fold);
+    is_close(found[0].1, 0.0, 1e-14);
+    let state = [("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)];
+    let plane = "1/2 (x'^2 + y'^2) - 1/2 (p - 1) x^2 - 1/2 y^2";
+    let (flow, _) = flow(&model("\"x\", \"y\"", 1.0, plane), &state);
+    let parameter = flow.graph.intern_symbol("p", 0);
+    let mut equations = Equilibria::new(&flow, Some(parameter)).unwrap();
+    let found = follow(&mut equations, (&[0.0; 4], 1.0), (0.0, 3.0), points(300)).unwrap();
+    assert_eq!(found.family, 0);
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
+    is_close(found.special[0].point.parameter, 1.0, 1e-14);
+}
+
+/// x'' = −1 − x² has no state of rest: where the force is smallest, at x = 0, none is found.
+#[test]
+fn the_smallest_residual_is_no_solution() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - x - x^3/3\"\n",
+        &[("x", 0.3), ("x'", 0.0)],
+    );
+    let mut equations = Equilibria::new(&flow, None).unwrap();
+    let found = chetaev_orbits::branch::solution(&mut equations, &[0.3, 0.0], 0.0);
+    assert!(
+        matches!(found, Err(OrbitError::NotConverged { .. })),
+        "{found:?}"
+    );
+}
+
+/// Ziegler's column with equal damping d = 1/10 of both joints flutters from P = 2057/1400 on: Hurwitz's last determinant vanishes there.
+#[test]
+fn a_column_flutters_to_rounding() {
+    let text = r#"
+coordinates = ["a", "b"]
+parameters = { p = 1, d = 0.1 }
+[lagrangian]
+T = "1/2 (3 a'^2 + b'^2 + 2 a' b' cos(a - b))"
+V = "1/2 (a^2 + (b - a)^2)"
+[forces]
+a = "p sin(a - b) - d (2 a' - b')"
+b = "-d (b' - a')"
+"#;
+    let found = happens(
+        text,
+        &[("a", 0.0), ("b", 0.0), ("a'", 0.0), ("b'", 0.0)],
+        (0.0, 3.0),
+    );
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(matches!(found[0].0, Kind::Hopf { .. }), "{found:?}");
+    is_close(found[0].1, 2057.0 / 1400.0, 1e-14);
+}
+
+/// A force cos(1.2 t) repeats after 2π/1.2 and its multiples: what closes after another time is no periodic orbit.
+#[test]
+fn a_period_is_one_of_the_force() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["x"]
+parameters = { w = 1.2, F = 0.3 }
+[lagrangian]
+L = "1/2 x'^2 - 1/2 x^2 - 1/4 x^4"
+[forces]
+x = "-0.1 x' + F cos(w t)"
+"#,
+        &[("x", 0.0), ("x'", 0.0)],
+    );
+    let orbit = |period: &str| {
+        let mut orbits = Shooting::new(&flow, None, Some(read(period))).unwrap();
+        chetaev_orbits::branch::solution(&mut orbits, &[0.0, 0.0], 0.0)
+    };
+    let Err(OrbitError::NotRepeated { own, .. }) = orbit("3") else {
+        panic!("an orbit of another period than the force");
+    };
+    assert_eq!(own.len(), 1);
+    is_close(own[0], 2.0 * std::f64::consts::PI / 1.2, 1e-15);
+    assert!(orbit("2 pi/w").is_ok());
+    assert!(orbit("4 pi/w").is_ok());
 }
 
 /// A bead on a turning hoop: at ω² = g/R the lowest position gives its stability to two others (a pitchfork); the branch through the side
@@ -208,20 +378,20 @@ theta = "-0.1 theta'"
     is_close(lowest.special[0].point.parameter, critical, 1e-12);
     let side = follow(&mut equations, (&[1.0, 0.0], 6.0), (2.0, 8.0), points(300)).unwrap();
     let turn = side.special.iter().find(|own| own.kind == Kind::Pitchfork);
-    is_close(turn.unwrap().point.parameter, critical, 1e-6);
+    is_close(turn.unwrap().point.parameter, critical, 1e-12);
     for own in &side.points {
         let expected = 9.81 / (0.5 * own.parameter * own.parameter);
         is_close(own.unknowns[0].cos(), expected, 1e-10);
     }
 }
 
-/// What happens along the rest at zero over p, with the values of p.
+/// What happens along the motions from a state at the end of a range of p, with the values of p.
 fn happens(text: &str, state: &[(&str, f64)], range: (f64, f64)) -> Vec<(Kind, f64)> {
     let (flow, _) = flow(text, state);
     let parameter = flow.graph.intern_symbol("p", 0);
     let mut equations = Equilibria::new(&flow, Some(parameter)).unwrap();
-    let rest = vec![0.0; state.len()];
-    let found = follow(&mut equations, (&rest, range.1), range, points(300)).unwrap();
+    let start: Vec<f64> = state.iter().map(|own| own.1).collect();
+    let found = follow(&mut equations, (&start, range.1), range, points(300)).unwrap();
     let special = found.special.into_iter();
     special.map(|own| (own.kind, own.point.parameter)).collect()
 }
@@ -380,6 +550,95 @@ x = 1
         at("d2 x/d k d k"),
         second / (4.0 * k) - by_omega / (4.0 * w.powi(3)),
         1e-13,
+    );
+}
+
+/// The last row of the sensitivities of a model from rest to th0 and g, by names.
+fn by_start_and_gravity(text: &str, point: &[(&str, f64)], end: f64) -> BTreeMap<String, f64> {
+    let (system, prepared) = system(text);
+    let symbol = |name: &str| {
+        let order = u32::from(name.ends_with('\''));
+        system
+            .graph
+            .intern_symbol(name.trim_end_matches('\''), order)
+    };
+    let beginning = Beginning {
+        t: 0.0,
+        point: point.iter().map(|&(name, x)| (symbol(name), x)).collect(),
+        given: system.start.clone(),
+    };
+    let by = ["th0".to_owned(), "g".to_owned()];
+    let of = (&prepared.terms, &prepared.selection);
+    let to = (end, Output::End);
+    let found = sensitivities(&system, of, &beginning, (&by, Order::First), to).unwrap();
+    let row = found.rows.last().unwrap().1.clone();
+    found.columns().into_iter().zip(row).collect()
+}
+
+/// A pendulum in Cartesian coordinates passes its lowest place, where one velocity does not determine the other, and its turning points: its
+/// sensitivities are those in the angle, x = sin θ and y = −cos θ.
+#[test]
+fn a_pendulum_passes_where_a_velocity_is_not_determined() {
+    let angle = by_start_and_gravity(
+        "coordinates = [\"th\"]\nparameters = { g = 9.81, th0 = 0.4 }\n[lagrangian]\nL = \"1/2 th'^2 + g cos(th)\"\n[initial]\nth = \"th0\"\n\"th'\" = 0\n",
+        &[("th", 0.4), ("th'", 0.0)],
+        2.0,
+    );
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let plane = by_start_and_gravity(
+        "coordinates = [\"x\", \"y\"]\nparameters = { g = 9.81, th0 = 0.4 }\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - g y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n[initial]\nx = \"sin(th0)\"\ny = \"-cos(th0)\"\n\"x'\" = 0\n",
+        &[("x", sin), ("y", -cos), ("x'", 0.0), ("y'", 0.0)],
+        2.0,
+    );
+    let (sin, cos) = angle["th"].sin_cos();
+    is_close(plane["x"], sin, 1e-12);
+    is_close(plane["y"], -cos, 1e-12);
+    is_close(plane["x'"], cos * angle["th'"], 1e-12);
+    for by in ["th0", "g"] {
+        let (turn, rate) = (
+            angle[&format!("d th/d {by}")],
+            angle[&format!("d th'/d {by}")],
+        );
+        is_close(plane[&format!("d x/d {by}")], cos * turn, 1e-11);
+        is_close(plane[&format!("d y/d {by}")], sin * turn, 1e-11);
+        let of_velocity = cos * rate - sin * turn * angle["th'"];
+        is_close(plane[&format!("d x'/d {by}")], of_velocity, 1e-11);
+    }
+}
+
+/// A pendulum in Cartesian coordinates and all velocities: its period is 4 K(sin(α/2)) √(l/g), and of its four multipliers, all 1, two are of the
+/// constraint and its rate, one of the energy, which is constant on these alone, and one along the orbit.
+#[test]
+fn an_orbit_in_all_velocities() {
+    let (system, prepared) = system(
+        "coordinates = [\"x\", \"y\"]\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n",
+    );
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let flow =
+        Flow::in_all_velocities(&system, terms, selection, Coordinates::NotIgnorable).unwrap();
+    assert_eq!(flow.names, ["x", "y", "x'", "y'"]);
+    let (sin, cos) = 1.0_f64.sin_cos();
+    let mut orbits = Shooting::new(&flow, None, None).unwrap();
+    let start = orbits.unknowns(&[sin, -cos, 0.0, 0.0], 6.7);
+    let (orbit, _) = chetaev_orbits::branch::solution(&mut orbits, &start, 0.0).unwrap();
+    let own = &orbit.unknowns;
+    let energy = 0.5 * (own[2] * own[2] + own[3] * own[3]) + own[1];
+    let k = ((1.0 + energy) / 2.0).sqrt();
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    is_close(own[4], 2.0 * std::f64::consts::PI / a, 1e-10);
+    assert!(orbit.spectrum.values.is_empty(), "{:?}", orbit.spectrum);
+    let finite = "a finite constraint";
+    assert_eq!(
+        orbit.spectrum.trivial,
+        [
+            "the direction along the orbit",
+            finite,
+            finite,
+            "the energy"
+        ]
     );
 }
 

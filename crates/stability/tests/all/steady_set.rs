@@ -248,6 +248,29 @@ fn a_member_of_a_family_is_meant() {
     assert_eq!(found, [0.0, 0.0, 0.0, 1.5, 0.0, 0.0]);
 }
 
+/// What is given of a member of a family is put into the equations: a conical pendulum of the turning rate 4 with g/l = 9 hangs at cos θ = 9/16, and a
+/// top precesses with the rates ½(C ψ' ± √…) of which the slow one is guessed: 10 − √94 for A = 2, C = 1, P = 3, ψ' = 10, θ = π/3, where
+/// (A − C) cos θ φ'² − C ψ' φ' + P = 0 (Goldstein 1980, § 5-7).
+#[test]
+fn what_is_given_chooses_the_member_of_a_family() {
+    let cone = Case::new("coordinates = [\"th\", \"ph\"]\nparameters = { g = 9, w = 4 }\n[lagrangian]\nL = \"1/2 (th'^2 + sin(th)^2 ph'^2) + g cos(th)\"\n[steady.cone]\nph = 0\nth = { guess = 1 }\n\"th'\" = 0\n\"ph'\" = \"w\"\n");
+    let found = meant(&cone).unwrap();
+    assert!(
+        (found[0] - (9.0_f64 / 16.0).acos()).abs() < 1e-14,
+        "{found:?}"
+    );
+    assert_eq!(found[2..], [0.0, 4.0]);
+    let top = Case::new("coordinates = [\"phi\", \"th\", \"psi\"]\nparameters = { A = 2, C = 1, P = 3, n = 10 }\n[lagrangian]\nT = \"1/2 A (th'^2 + phi'^2 sin(th)^2) + 1/2 C (psi' + phi' cos(th))^2\"\nV = \"P cos(th)\"\n[steady.slow]\nth = \"pi/3\"\n\"th'\" = 0\n\"psi'\" = \"n\"\n\"phi'\" = { guess = 0.5 }\n");
+    let (terms, selection) = (&top.prepared.terms, &top.prepared.selection);
+    let values = top.system.parameter_values();
+    let motion = &top.system.steady[0];
+    let found = near(&top.system, terms, selection, (motion, &values)).unwrap();
+    let slow = found.velocities[0].unwrap();
+    let slow = top.system.graph.substitute(slow, &values);
+    let slow = top.system.graph.evaluate_f64(&[slow], &|_| None).unwrap()[0];
+    assert!((slow - (10.0 - 94.0_f64.sqrt())).abs() < 1e-14, "{slow}");
+}
+
 /// A bead on a vertical circle or ellipse rests at its lowest and at its highest place, whichever of its coordinates is named first.
 #[test]
 fn the_order_of_coordinates_hides_no_rest() {

@@ -2,6 +2,10 @@
 //!
 //! Newton's method begins at the motions that the model names, at the initial state, at rest in the initial positions, and at places about the first of
 //! these, the same ones at each call. What is found is a steady motion to rounding; that there are no others is not said.
+//!
+//! Where the velocities have poles by the independent ones, a zero of the equations is one of the choice of these, and is looked at once more with
+//! those for which the constraints are best conditioned there. Where the mass matrix or the gradients of the constraints lose rank the equations
+//! determine no accelerations, and nothing is said of stability.
 
 use super::words::sentence;
 use crate::decimals::Decimals;
@@ -9,14 +13,17 @@ use crate::follow::text::{plain, where_eigenvalues_lie};
 use crate::follow::{initial, of_motion, FollowError};
 use crate::stability::motions;
 use chetaev_mechanics::sample::Generator;
-use chetaev_mechanics::{Prepared, System};
+use chetaev_mechanics::{ConstraintKind, Prepared, Selection, System};
 use chetaev_model::Model;
 use chetaev_orbits::branch::{solution, Point};
 use chetaev_orbits::equilibria::Equilibria;
-use chetaev_orbits::flow::Coordinates;
-use chetaev_orbits::Flow;
+use chetaev_orbits::flow::{Coordinates, Margins};
+use chetaev_orbits::{Flow, OrbitError};
+use chetaev_stability::problem::LinearizationError;
+use chetaev_stability::reduction::conditioned;
+use chetaev_stability::singular::least_part_of;
 use chetaev_stability::steady_set::SteadySetError;
-use chetaev_symbolic::Symbol;
+use chetaev_symbolic::{Expr, Symbol};
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -52,6 +59,36 @@ pub struct Near {
     pub family: usize,
     /// The motion of the model from which it was found; none where it was found from another place.
     pub from: Option<String>,
+    /// What loses its rank there, so that no accelerations are determined.
+    pub singular: Option<Singular>,
+}
+
+impl Near {
+    /// Whether another place is this one, or one of its kind that nobody named.
+    fn covers(&self, other: &Near) -> bool {
+        let is_kind = other.singular.is_some() || other.family > 0;
+        let is_of_kind = self.singular == other.singular && self.family == other.family;
+        is_same(&self.point.unknowns, &other.point.unknowns)
+            || (other.from.is_none() && is_kind && is_of_kind)
+    }
+}
+
+/// What loses its rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Singular {
+    /// The mass matrix, as where angles are no coordinates.
+    Mass,
+    /// The gradients of the constraints.
+    Gradients,
+}
+
+impl Singular {
+    fn text(self) -> &'static str {
+        match self {
+            Singular::Mass => "the mass matrix is singular there, and the equations determine no accelerations",
+            Singular::Gradients => "the gradients of the constraints depend on each other there, and nothing is said of its neighbours",
+        }
+    }
 }
 
 /// Steady motions near the starts of a model, and about them.
@@ -64,33 +101,24 @@ pub(super) fn search(
     why: SteadySetError,
 ) -> Result<Search, FollowError> {
     let starts = starts(model, system, prepared)?;
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let first = starts.first().map_or(&[][..], |own| &own.1);
-    let which = (Coordinates::NotIgnorable, first);
-    let flow = Flow::of_system(system, terms, selection, which)?;
+    if let Some((name, _)) = starts
+        .first()
+        .filter(|_| are_singular(system, prepared, &starts))
+    {
+        let motion = name.clone();
+        return Err(LinearizationError::Singular { motion }.into());
+    }
+    let charts = Charts {
+        system,
+        prepared,
+        first: starts.first().map_or(&[][..], |own| &own.1),
+    };
+    let flow = charts.flow(&prepared.selection, charts.first)?;
     let of = |(name, point): &Start| Some((Some(name.clone()), flow.state(point).ok()?));
     let mut all: Vec<(Option<String>, Vec<f64>)> = starts.iter().filter_map(of).collect();
-    let about = flow.state(first)?;
+    let about = flow.state(charts.first)?;
     all.extend(places_about(&flow, &about).map(|place| (None, place)));
-    let mut equations = Equilibria::new(&flow, None)?;
-    let mut found: Vec<Near> = Vec::new();
-    for (from, start) in &all {
-        let Ok((mut point, family)) = solution(&mut equations, start, 0.0) else {
-            continue;
-        };
-        turned(&flow, &mut point.unknowns);
-        let is_known = |own: &Near| {
-            is_same(&own.point.unknowns, &point.unknowns)
-                || (from.is_none() && family > 0 && own.family == family)
-        };
-        if !found.iter().any(is_known) {
-            found.push(Near {
-                point,
-                family,
-                from: from.clone(),
-            });
-        }
-    }
+    let found = charts.found(&flow, &all)?;
     let ignorable = system.coordinates.iter();
     let ignorable = ignorable.filter(|c| !flow.variables.contains(&c.q_symbol));
     Ok(Search {
@@ -100,6 +128,156 @@ pub(super) fn search(
         starts: all.len(),
         found,
     })
+}
+
+/// Whether the gradients of the constraints depend on each other at all starts that satisfy the finite constraints.
+fn are_singular(system: &System, prepared: &Prepared, starts: &[Start]) -> bool {
+    let (g, terms) = (&system.graph, &prepared.terms);
+    let rows = &prepared.selection.rows;
+    let gradients = rows.iter().flat_map(|&row| terms.jacobian[row].clone());
+    let gradients: Vec<Expr> = gradients.map(|e| system.with_definitions(e)).collect();
+    let constraints = rows
+        .iter()
+        .map(|&row| &system.constraints[terms.constraint_index[row]]);
+    let finite = constraints.filter(|own| own.kind == ConstraintKind::Holonomic);
+    let finite: Vec<Expr> = finite
+        .map(|own| system.with_definitions(own.stated))
+        .collect();
+    let values = |es: &[Expr], (_, point): &Start| {
+        let value = |s: Symbol| point.iter().find(|own| own.0 == s).map(|own| own.1);
+        g.evaluate_f64(es, &value).ok()
+    };
+    let holds = |own: &&Start| {
+        let found = values(&finite, own);
+        found.is_some_and(|all| all.iter().all(|x| x.abs() < ADMISSIBLE))
+    };
+    let mut admissible = starts.iter().filter(holds).peekable();
+    let is_singular = |own: &Start| {
+        let found = values(&gradients, own);
+        found.is_some_and(|own| least_part_of(rows.len(), &own) < AT_SINGULAR)
+    };
+    !rows.is_empty() && admissible.peek().is_some() && admissible.all(is_singular)
+}
+
+/// The largest residual of a finite constraint at a start.
+const ADMISSIBLE: f64 = 1e-9;
+/// A part of the gradients of constraints below this is none; a mass matrix is quadratic in such a distance.
+const AT_SINGULAR: f64 = 1e-5;
+/// A slope of a velocity beyond this may be near a pole, and one beyond its square is.
+const STEEP: f64 = 1e3;
+
+/// What loses its rank at a place, in parts of what is usual.
+fn singular(own: Margins, usual: &[Margins]) -> Option<Singular> {
+    let most = |part: fn(&Margins) -> f64| usual.iter().map(part).fold(0.0, f64::max);
+    let (mass, gradients) = (most(|own| own.mass), most(|own| own.gradients));
+    if own.gradients < AT_SINGULAR * gradients {
+        Some(Singular::Gradients)
+    } else if own.mass < AT_SINGULAR * AT_SINGULAR * mass {
+        Some(Singular::Mass)
+    } else {
+        None
+    }
+}
+
+fn parameters(flow: &Flow) -> Vec<f64> {
+    flow.parameters.iter().map(|own| own.1).collect()
+}
+
+/// The choices of independent velocities.
+struct Charts<'a> {
+    system: &'a System,
+    prepared: &'a Prepared,
+    /// Coordinates, velocities and parameters at the first start.
+    first: &'a [(Symbol, f64)],
+}
+
+impl Charts<'_> {
+    fn flow(&self, chart: &Selection, point: &[(Symbol, f64)]) -> Result<Flow, OrbitError> {
+        let which = (Coordinates::NotIgnorable, point);
+        Flow::of_system(self.system, &self.prepared.terms, chart, which)
+    }
+
+    /// The motions that are found from starts, each once; of families, and of places where something loses its rank, those that the model names
+    /// and one more.
+    fn found(
+        &self,
+        flow: &Flow,
+        starts: &[(Option<String>, Vec<f64>)],
+    ) -> Result<Vec<Near>, OrbitError> {
+        let values = parameters(flow);
+        let usual = starts.iter().map(|own| flow.margins(&own.1, &values));
+        let usual: Vec<Margins> = usual.collect();
+        let mut equations = Equilibria::new(flow, None)?;
+        let mut found: Vec<Near> = Vec::new();
+        for (from, start) in starts {
+            let own = solution(&mut equations, start, 0.0).ok();
+            let settled = own.and_then(|own| self.settled(flow, own));
+            let Some((mut point, family, margins)) = settled else {
+                continue;
+            };
+            turned(flow, &mut point.unknowns);
+            let own = Near {
+                singular: singular(margins, &usual),
+                from: from.clone(),
+                family,
+                point,
+            };
+            if !found.iter().any(|known| known.covers(&own)) {
+                found.push(own);
+            }
+        }
+        Ok(found)
+    }
+
+    /// What was found with its margins; where the velocities have a pole, what is found near it by others. `None` where that is nothing.
+    fn settled(
+        &self,
+        flow: &Flow,
+        (point, family): (Point, usize),
+    ) -> Option<(Point, usize, Margins)> {
+        let margins = flow.margins(&point.unknowns, &parameters(flow));
+        if margins.slope < STEEP {
+            return Some((point, family, margins));
+        }
+        let place = self.at_rest(flow, &point.unknowns);
+        let (terms, selection) = (&self.prepared.terms, &self.prepared.selection);
+        let chart = conditioned(self.system, terms, selection, &place)?;
+        let other = self.flow(&chart, &place).ok()?;
+        let start = other.state(&place).ok()?;
+        let mut equations = Equilibria::new(&other, None).ok()?;
+        let (mut point, family) = solution(&mut equations, &start, 0.0).ok()?;
+        let margins = other.margins(&point.unknowns, &parameters(&other));
+        let place = self.at_rest(&other, &point.unknowns);
+        point.unknowns = flow.state(&place).ok()?;
+        let is_regular = margins.slope < STEEP * STEEP || margins.gradients < AT_SINGULAR;
+        is_regular.then_some((point, family, margins))
+    }
+
+    /// The first start with the coordinates of a state, and its velocities where they have values.
+    fn at_rest(&self, flow: &Flow, z: &[f64]) -> Vec<(Symbol, f64)> {
+        let place = |s: Symbol| flow.variables.iter().position(|own| *own == s);
+        let own = self
+            .first
+            .iter()
+            .map(|&(s, value)| (s, place(s).map_or(value, |i| z[i])));
+        let mut known: Vec<(Symbol, f64)> = own.collect();
+        let value = |s: Symbol| {
+            let variable = place(s).map(|i| z[i]);
+            let other = || known.iter().find(|own| own.0 == s).map(|own| own.1);
+            variable.or_else(other)
+        };
+        let velocities = flow.velocities.iter().map(|&e| {
+            let found = flow.graph.evaluate_f64(&[e], &value).ok();
+            let found = found.and_then(|all| all.first().copied());
+            found.filter(|x| x.is_finite()).unwrap_or(0.0)
+        });
+        let velocities: Vec<f64> = velocities.collect();
+        for (s, x) in self.system.velocity_symbols().into_iter().zip(velocities) {
+            known.retain(|own| own.0 != s);
+            known.push((s, x));
+        }
+        known
+    }
 }
 
 /// The name of a motion with values of coordinates, velocities and parameters.
@@ -177,6 +355,10 @@ impl Search {
                 .as_ref()
                 .map_or(String::new(), |from| format!(", near `{from}`"));
             let _ = writeln!(text, "  {}  {}{from}", at + 1, values.join(", "));
+            if let Some(singular) = own.singular {
+                let _ = writeln!(text, "       {}", singular.text());
+                continue;
+            }
             if own.family > 0 {
                 let _ = writeln!(text, "       one of a family of dimension {}", own.family);
             }
@@ -212,6 +394,7 @@ impl Search {
             let values = values.map(|(name, x)| json!({"name": name, "exact": null, "value": x}));
             let spectrum = &own.point.spectrum.values;
             let eigenvalues = spectrum.iter().map(|l| json!([l.re, l.im]));
+            let is_regular = own.singular.is_none();
             json!({
                 "name": (at + 1).to_string(),
                 "near": own.from,
@@ -221,8 +404,9 @@ impl Search {
                 "not_negative": [],
                 "closed_form": false,
                 "values": values.collect::<Vec<_>>(),
-                "eigenvalues": eigenvalues.collect::<Vec<_>>(),
-                "stability": where_eigenvalues_lie(spectrum),
+                "singular": own.singular.map(Singular::text),
+                "eigenvalues": is_regular.then(|| eigenvalues.collect::<Vec<_>>()),
+                "stability": is_regular.then(|| where_eigenvalues_lie(spectrum)),
             })
         };
         json!({

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 use chetaev_model::load;
-use chetaev_study::steady::{steady, Motions, Search};
+use chetaev_study::steady::{steady, Motions, Search, Singular};
 use std::collections::BTreeMap;
 
 /// What is found of a model from its starts.
@@ -103,4 +103,52 @@ phi = 0
     let speed = found.variables.iter().position(|name| name == "u").unwrap();
     assert!((own.point.unknowns[speed] - 2.0_f64.ln()).abs() < 1e-12);
     assert_eq!(found.ignorable, ["x", "y", "phi"]);
+}
+
+/// A double spherical pendulum in angles hangs and stands where these are no coordinates: no stability is told of it there. A point on the axis y = 0
+/// of the cross x y = 0 rests at x = 1; on the axis x = 0 it would rest at y = 0 alone, where the axes meet.
+#[test]
+fn singular_places_have_no_stability() {
+    let found = found(
+        r#"
+name = "double spherical pendulum"
+coordinates = ["a", "b", "p", "r"]
+[define]
+x1 = "sin(a) cos(p)"
+y1 = "sin(a) sin(p)"
+z1 = "-cos(a)"
+x2 = "x1 + sin(b) cos(p + r)"
+y2 = "y1 + sin(b) sin(p + r)"
+z2 = "z1 - cos(b)"
+[lagrangian]
+T = "1/2 (x1'^2 + y1'^2 + z1'^2 + x2'^2 + y2'^2 + z2'^2)"
+V = "z1 + z2"
+"#,
+    );
+    assert!(!found.found.is_empty());
+    for own in &found.found {
+        let vertical = own.point.unknowns[..2].iter().map(|x| x.sin().abs());
+        let is_vertical = vertical.fold(f64::INFINITY, f64::min) < 1e-6;
+        assert_eq!(own.singular == Some(Singular::Mass), is_vertical, "{own:?}");
+    }
+    let cross = self::found(
+        r#"
+name = "cross"
+coordinates = ["x", "y"]
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "1/2 (x - 1)^2 + y^2"
+[constraints]
+cross = "x y = 0"
+[initial]
+x = 1
+"#,
+    );
+    for own in &cross.found {
+        let (x, y) = (own.point.unknowns[0], own.point.unknowns[1]);
+        let is_at_rest = (x - 1.0).abs() < 1e-9 && y.abs() < 1e-9;
+        let is_meeting = x.abs().max(y.abs()) < 1e-4;
+        assert!(is_at_rest || is_meeting, "{own:?}");
+        assert_eq!(own.singular.is_some(), is_meeting, "{own:?}");
+    }
 }
