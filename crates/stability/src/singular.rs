@@ -64,6 +64,12 @@ pub fn least_part(m: &DMatrix<f64>) -> f64 {
         .map_or(0.0, |(first, last)| last / first)
 }
 
+/// The same of a matrix that is given row by row.
+pub fn least_part_of(rows: usize, entries: &[f64]) -> f64 {
+    let columns = entries.len() / rows.max(1);
+    least_part(&DMatrix::from_row_slice(rows, columns, entries))
+}
+
 /// Orthogonal columns made of length 1, with others beside them to a unitary matrix: by the orthonormal factor of what they make with columns
 /// that have nothing to do with them.
 fn completed<T: ComplexField<RealField = f64>>(known: &DMatrix<T>) -> DMatrix<T> {
