@@ -13,13 +13,13 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from .errors import ModelWarning
-from .texts import known_functions, of_sympy
+from .texts import FUNCTIONS, known_functions, of_sympy
 from .trees import nodes, replaced
 
 #: Names that a model cannot declare.
 _RESERVED = set(
-    "t pi sum sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log ln sqrt abs sign".split()
-)
+    "t pi sum sqrt ln sgn arcsin arccos arctan arctan2 arsinh arcsinh arcosh arccosh artanh arctanh".split()
+).union(FUNCTIONS)
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "θ": "theta", "λ": "lamda", "μ": "mu",
     "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "phi", "ψ": "psi", "ω": "omega",
@@ -311,8 +311,7 @@ def of_bodies(
 
     places: list[Any] = []
     positions = list(holonomic)
-    constraints = {f"position_{number}": own for number, own in enumerate(positions, 1)}
-    constraints |= {f"velocity_{number}": own for number, own in enumerate(left, 1)}
+    constraints = _constraints(positions, left)
     taken = {own.func.__name__ for own in _functions([*coordinates, *speeds])}
     kinetic = sp.S.Zero
     bodies = list(bodies)
@@ -365,6 +364,12 @@ def of_bodies(
     if derived:
         found.state(derived)
     return found
+
+
+def _constraints(positions: Iterable[Any], velocities: Iterable[Any]) -> dict[str, Any]:
+    """Constraints by their names: those on positions, then those on velocities."""
+    kinds = (("position", positions), ("velocity", velocities))
+    return {f"{kind}_{number}": own for kind, listed in kinds for number, own in enumerate(listed, 1)}
 
 
 def _put(expression: Any, known: Mapping[Any, Any]) -> Any:
@@ -674,8 +679,10 @@ def _of_lagrange(method: Any, parameters: Any, derived: bool, speeds: Mapping[An
         for own in coordinates:
             forces[own] += sum((f * v.diff(own.diff()) for f, v in zip(applied, components, strict=True)), sp.S.Zero)
     lagrangian = _put(sp.Matrix([method._L])[0], known)
-    constraints = [_put(own, known) for own in method.coneqs]
-    controls = sorted(_functions([lagrangian, *forces.values(), *constraints]) - set(coordinates), key=str)
+    # SymPy has the rates of constraints on positions before the others; what they hold the system to are the positions.
+    positions = list(method._hol_coneqs)
+    constraints = _constraints([_put(own, known) for own in positions], [_put(own, known) for own in method.coneqs[len(positions) :]])
+    controls = sorted(_functions([lagrangian, *forces.values(), *constraints.values()]) - set(coordinates), key=str)
     for own in controls:
         said = f"{own} is no coordinate of this LagrangesMethod, and is taken for a control, a given function of the time"
         warnings.warn(said, ModelWarning, stacklevel=4)
