@@ -45,9 +45,12 @@ def exact(value: Any) -> str:
         if getattr(value, "mask", False):
             raise TypeError("there is no value where an array is masked")
         plain = value.item()
-        # What Python has no number for, as NumPy's long double, is the decimal that it prints as.
-        return exact(Decimal(str(plain)) if type(plain) is type(value) and isinstance(plain, Real) else plain)
-    if isinstance(value, Real) and not hasattr(value, "free_symbols"):
+        if type(plain) is not type(value):
+            return exact(plain)
+        if isinstance(plain, Real):
+            # What Python has no number for, as NumPy's long double, is the decimal that it prints as.
+            return exact(Decimal(str(plain)))
+    elif isinstance(value, Real) and not hasattr(value, "free_symbols"):
         number = float(value)
         if not math.isfinite(number):
             raise ValueError(f"{number} is no finite number")

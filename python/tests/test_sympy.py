@@ -13,7 +13,7 @@ import sympy.physics.mechanics as me
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from chetaev import ModelError, System
+from chetaev import ModelError, ModelWarning, System
 from chetaev.texts import of_sympy
 
 t = me.dynamicsymbols._t
@@ -469,3 +469,45 @@ def test_a_system_by_lagranges_method_keeps_its_constraints_on_positions() -> No
         start = system.compile().start
         np.testing.assert_allclose(start[0] ** 2 + start[1] ** 2, 1, atol=1e-12)
         np.testing.assert_allclose(start[0] * start[2] + start[1] * start[3], 0, atol=1e-12)
+
+
+def test_a_statement_goes_on_in_its_own_symbols() -> None:
+    # A coordinate and a parameter of one name: the parameter is called otherwise in the model.
+    x, y = me.dynamicsymbols("x y")
+    s, k = sp.symbols("x k")
+    with pytest.warns(ModelWarning, match="x is called `x_2`"):
+        system = System.from_sympy(x.diff() ** 2 / 2 + y.diff() ** 2 / 2 - k * x**2 / 2 - s * y**2 / 2, [x, y], parameters={s: 5, k: 1}, initial={x: 7})
+    assert system.with_initial({y: s}).compile().start[1] == 5
+    assert system.simulate(initial={y: 2 * s, x.diff(): 3}, t_end=1)["y"][0] == 10
+    assert system.with_values(k=2 * s).compile().rhs(0.0, [1.0, 0.0, 0.0, 0.0])[2] == -10
+    assert system.compile(k=s + 1).parameters == {"x_2": 5.0}
+    la = sp.Symbol("lambda")
+    with pytest.warns(ModelWarning):
+        system = System.from_sympy(x.diff() ** 2 / 2 - la * x**2 / 2 - k * x, [x], parameters={la: 2, k: 1})
+    assert system.with_values(**{"lambda": 3}).parameters["x_lambda"] == system.with_values(x_lambda=3).parameters["x_lambda"] == "3"
+    assert system.with_values(k=la * 2).compile().rhs(0.0, [0.0, 0.0])[1] == -4
+
+
+@pytest.mark.parametrize("name", ["None", "True", "False"])
+def test_names_of_constants_of_python_are_names(name: str) -> None:
+    q, k = me.dynamicsymbols(name), sp.Symbol("k")
+    with pytest.warns(ModelWarning, match=f"called `x_{name}`"):
+        system = System.from_sympy(q.diff() ** 2 / 2 - k * q**2 / 2, [q], parameters={k: 2})
+    (equation,) = system.derive("routh").to_sympy()["routh"]["equations of motion"]
+    assert equation == sp.Eq(q.diff(t, 2) + k * q, 0)
+    assert list(system.to_opty().states)[0] == q
+
+
+@pytest.mark.parametrize("own", [None, [1], sp.Matrix([X]), X > 0, object()])
+def test_a_lagrangian_is_an_expression(own: Any) -> None:
+    with pytest.raises(TypeError, match="the Lagrangian: an expression of SymPy is needed, not "):
+        System.from_sympy(own, [X])
+
+
+def test_one_coordinate_and_one_equation_need_no_list() -> None:
+    assert System.from_sympy(X.diff() ** 2 / 2, X).coordinates == ["x"]
+    y = me.dynamicsymbols("y")
+    system = System("s", coordinates=["x", "y"], kinetic=(X.diff() ** 2 + y.diff() ** 2) / 2, constraints=sp.Eq(X.diff(), y))
+    # x' = y: x'' = y' along each motion.
+    rates = system.compile().rhs(0.0, [1.0, 2.0, 2.0, 3.0])
+    assert system.constraints == ["constraint_1"] and rates[2] == pytest.approx(3.0)
