@@ -6,6 +6,8 @@ import functools
 from typing import TYPE_CHECKING, Any
 
 from . import chetaev_native as native
+from . import notebook
+from .results import Shown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from .system import System
 
 
-class Compiled:
+class Compiled(Shown):
     """The equations of motion of a system as machine code.
 
     The state ``y`` is (coordinates, masses with a law of their own, velocities); ``state`` names its components. All functions take
@@ -41,7 +43,9 @@ class Compiled:
     -----
     Arrays of other libraries are taken where they lie, if they offer DLPack on the CPU. Each function has an ``address`` for callers that know
     C only: ``void f(double t, double *y, double *values, double *data)``, the signature of Numba's and numbalsoda's right-hand sides. The last argument
-    is the function's array ``data``: it says which function is meant, and has the parameters after that, which may be changed.
+    is the function's array ``data`` of shape (1 + parameters,): it says which function is meant, and has the parameters after that. It is one array,
+    the same at each access. Parameters changed in it hold for calls by the address that hand it over, and not for ``f.rhs(t, y)``; what it
+    says first may not be changed. It keeps the function, so that calls with it serve as long as it lives.
     SciPy's ``LowLevelCallable`` serves quadratures alone; ``solve_ivp`` takes ``f.rhs`` itself. Many states are rows here: ``solve_ivp`` with
     ``vectorized=True`` has them as columns, and takes ``lambda t, y: f.rhs(t, y.T).T``.
 
@@ -56,18 +60,18 @@ class Compiled:
 
     def __init__(self, system: System) -> None:
         self.system = system
-        self._native = system._native.compile()
+        self._native = system._anew().compile()
         self.parameters: dict[str, float] = dict(self._native.parameters)
         self.state: list[str] = self._native.state
         self.constraints: list[str] = self._native.constraints
         self.names: list[str] = self._native.definitions
-        self._known: dict[str, Function] = {}
         # An attribute, and no property: it is asked for before each call.
-        self.rhs: Function = self._function("rates")
+        self.rhs: Function = self._native.function("rates")
+        self._known: dict[str, Function] = {"rates": self.rhs}
 
     @functools.cached_property
     def _start(self) -> tuple[float, list[float]]:
-        return self.system._native.start()
+        return self.system._anew().start()
 
     @property
     def start(self) -> NDArray[np.float64]:
@@ -89,7 +93,8 @@ class Compiled:
 
     def _function(self, what: str) -> Function:
         if what not in self._known:
-            self._known[what] = self._native.function(what)
+            # Of a model read anew, so that no function depends on which were asked for before.
+            self._known[what] = self.system._anew().compile().function(what)
         return self._known[what]
 
     @property
@@ -143,6 +148,10 @@ class Compiled:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Compiled, (self.system,)
+
+    def _html(self) -> str:
+        said = notebook.paragraph(f"{self.system.name}: the rates of y = ({', '.join(self.state)})")
+        return said + notebook.table(["parameter", "value"], [(notebook.code(name), value) for name, value in self.parameters.items()])
 
     def __repr__(self) -> str:
         return f"<Compiled {self.system.name}: y = ({', '.join(self.state)})>"

@@ -13,13 +13,13 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from .errors import ModelWarning
-from .texts import known_functions, of_sympy
+from .texts import FUNCTIONS, known_functions, of_sympy
 from .trees import nodes, replaced
 
-#: Names that a model cannot declare.
+#: Names that a model cannot declare, and those of constants of Python, which its programs cannot assign.
 _RESERVED = set(
-    "t pi sum sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log ln sqrt abs sign".split()
-)
+    "t pi sum sqrt ln sgn arcsin arccos arctan arctan2 arsinh arcsinh arcosh arccosh artanh arctanh None True False".split()
+).union(FUNCTIONS)
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "θ": "theta", "λ": "lamda", "μ": "mu",
     "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "phi", "ψ": "psi", "ω": "omega",
@@ -51,6 +51,14 @@ class Origins:
             elif name in self.objects:
                 found[own] = self.objects[name]
         return replaced([expression], found)[0]
+
+    def name(self, word: str) -> str:
+        """What the model calls an object that the user calls so, with the primes of a rate behind."""
+        own = word.rstrip("'")
+        if own in self.objects:
+            return word
+        known = {one.func.__name__ if isinstance(one, AppliedUndef) else one.name: name for name, one in self.objects.items()}
+        return known.get(own, own) + word[len(own) :]
 
     def text(self, expression: Any) -> str:
         """An expression of the user's objects in the notation of the model."""
@@ -108,6 +116,8 @@ class Statement:
             raise TypeError(f"coordinates: {type(lagrangian).__name__} states its own; they belong to a Lagrangian")
         if isinstance(constraints, (sp.Expr, Boolean)):
             constraints = [constraints]
+        if isinstance(coordinates, AppliedUndef):
+            coordinates = [coordinates]
         listed = constraints if isinstance(constraints, Mapping) else {
             f"constraint_{number}": own for number, own in enumerate(constraints, 1)
         }
@@ -115,6 +125,7 @@ class Statement:
             raise TypeError(f"forces: a mapping from coordinates to expressions is needed, not {type(forces).__name__}")
         named = dict(definitions or {})
         _no_texts({"the Lagrangian": lagrangian, **listed, **{f"the force on {key}": own for key, own in (forces or {}).items()}})
+        lagrangian = _expression("the Lagrangian", lagrangian)
         equations = {name: _equation(name, own) for name, own in listed.items()}
         self._coordinates = [sp.sympify(own) for own in coordinates]
         time = _time(self._coordinates)
@@ -189,6 +200,16 @@ def _no_texts(stated: Mapping[str, Any]) -> None:
     for name, own in stated.items():
         if isinstance(own, str):
             raise TypeError(f"{name}: an expression of SymPy is needed, not the text {own!r}; System(…) itself takes texts")
+
+
+def _expression(name: str, own: Any) -> Any:
+    try:
+        found = sp.sympify(own, strict=True)
+    except sp.SympifyError:
+        found = None
+    if not isinstance(found, sp.Expr) or found.is_Matrix:
+        raise TypeError(f"{name}: an expression of SymPy is needed, not {type(own).__name__}")
+    return found
 
 
 def _equation(name: str, own: Any) -> Any:
@@ -311,8 +332,7 @@ def of_bodies(
 
     places: list[Any] = []
     positions = list(holonomic)
-    constraints = {f"position_{number}": own for number, own in enumerate(positions, 1)}
-    constraints |= {f"velocity_{number}": own for number, own in enumerate(left, 1)}
+    constraints = _constraints(positions, left)
     taken = {own.func.__name__ for own in _functions([*coordinates, *speeds])}
     kinetic = sp.S.Zero
     bodies = list(bodies)
@@ -365,6 +385,12 @@ def of_bodies(
     if derived:
         found.state(derived)
     return found
+
+
+def _constraints(positions: Iterable[Any], velocities: Iterable[Any]) -> dict[str, Any]:
+    """Constraints by their names: those on positions, then those on velocities."""
+    kinds = (("position", positions), ("velocity", velocities))
+    return {f"{kind}_{number}": own for kind, listed in kinds for number, own in enumerate(listed, 1)}
 
 
 def _put(expression: Any, known: Mapping[Any, Any]) -> Any:
@@ -674,8 +700,10 @@ def _of_lagrange(method: Any, parameters: Any, derived: bool, speeds: Mapping[An
         for own in coordinates:
             forces[own] += sum((f * v.diff(own.diff()) for f, v in zip(applied, components, strict=True)), sp.S.Zero)
     lagrangian = _put(sp.Matrix([method._L])[0], known)
-    constraints = [_put(own, known) for own in method.coneqs]
-    controls = sorted(_functions([lagrangian, *forces.values(), *constraints]) - set(coordinates), key=str)
+    # SymPy has the rates of constraints on positions before the others; what they hold the system to are the positions.
+    positions = list(method._hol_coneqs)
+    constraints = _constraints([_put(own, known) for own in positions], [_put(own, known) for own in method.coneqs[len(positions) :]])
+    controls = sorted(_functions([lagrangian, *forces.values(), *constraints.values()]) - set(coordinates), key=str)
     for own in controls:
         said = f"{own} is no coordinate of this LagrangesMethod, and is taken for a control, a given function of the time"
         warnings.warn(said, ModelWarning, stacklevel=4)

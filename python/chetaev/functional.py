@@ -10,15 +10,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from . import chetaev_native as native
-from . import notebook
+from . import formulas, notebook
+from .asked import words
 from .claims import explain, verify
 from .errors import ModelWarning
 from .keywords import in_python
-from .results import Check, Explanation, Json, Result, Verdict, Verification, part_of, write
+from .results import Check, Explanation, Json, Result, Shown, Verdict, Verification, part_of, write
 from .system import Value, _pairs, _Progress, of_gallery, readable
 
 
-class FieldEquation:
+class FieldEquation(Result):
     """The coefficient of one variation, which vanishes.
 
     Attributes
@@ -32,18 +33,29 @@ class FieldEquation:
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
+        super().__init__(dict(data), f"{data['of']}: {data['equation']}")
         self.of: str = data["of"]
         self.text: str = data["equation"]
         self.latex: str = data["latex"]
 
-    def __repr__(self) -> str:
-        return f"{self.of}: {self.text}"
+    def to_latex(self) -> str:
+        """The equation in LaTeX.
 
-    def _repr_latex_(self) -> str:
+        Returns
+        -------
+        str
+            For mathematics in a document with amsmath.
+        """
+        return self.latex
+
+    def _latex(self) -> str | None:
         return f"$\\displaystyle {self.latex}$"
 
+    def _html(self) -> str:
+        return f"<p>{html.escape(self.of)}: {html.escape(self._latex() or '')}</p>"
 
-class FieldEquations:
+
+class FieldEquations(Result):
     """The equations of the interior, or the conditions on a piece of the boundary.
 
     Attributes
@@ -56,18 +68,46 @@ class FieldEquations:
         In components.
     """
 
-    def __init__(self, data: Mapping[str, Any]) -> None:
+    def __init__(self, data: Mapping[str, Any], derivation: FieldDerivation | None = None) -> None:
         self.title: str = data["title"]
         self.indexed = [FieldEquation(own) for own in data["indexed"]]
         self.components = [FieldEquation(own) for own in data["components"]]
+        self._derivation = derivation
+        super().__init__(dict(data), "\n".join([self.title, *(f"  {own}" for own in self.equations)]))
 
     @property
     def equations(self) -> list[FieldEquation]:
         """In index notation where there is one, else in components."""
         return self.indexed or self.components
 
-    def __repr__(self) -> str:
-        return "\n".join([self.title, *(f"  {own}" for own in self.equations)])
+    def to_latex(self) -> str:
+        """The equations in an ``aligned`` environment.
+
+        Returns
+        -------
+        str
+            A text for a document with amsmath.
+        """
+        return formulas.aligned(own.latex.replace(" = ", " &= ", 1) for own in self.equations)
+
+    def to_sympy(self) -> list[Any]:
+        """The equations in SymPy, in components, as :meth:`FieldDerivation.to_sympy` has them.
+
+        Returns
+        -------
+        list of sympy expressions
+            What vanishes.
+        """
+        if self._derivation is None:
+            raise ValueError("only the parts of a derivation are written in SymPy")
+        return self._derivation.to_sympy()[self.title]
+
+    def _latex(self) -> str | None:
+        return f"$${self.to_latex()}$$" if self.equations else None
+
+    def _html(self) -> str:
+        shown = "".join(own._html() for own in self.equations)
+        return f"<h4>{html.escape(self.title[:1].upper() + self.title[1:])}</h4>\n{shown or '<p>nothing is free</p>'}"
 
 
 class FieldDerivation(Result, Sequence[FieldEquations]):
@@ -82,7 +122,7 @@ class FieldDerivation(Result, Sequence[FieldEquations]):
     def __init__(self, functional: Functional, data: Json, text: str) -> None:
         super().__init__(data, text)
         self._functional = functional
-        self.parts = [FieldEquations(own) for own in data["parts"]]
+        self.parts = [FieldEquations(own, self) for own in data["parts"]]
 
     def __len__(self) -> int:
         return len(self.parts)
@@ -138,16 +178,10 @@ class FieldDerivation(Result, Sequence[FieldEquations]):
 
     def _latex(self) -> str | None:
         rows = [own.latex.replace(" = ", " &= ", 1) for part in self.parts for own in part.equations]
-        return "$$\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}$$" if rows else None
+        return f"$${formulas.aligned(rows)}$$" if rows else None
 
     def _html(self) -> str:
-        lines = []
-        for part in self.parts:
-            lines.append(f"<h4>{html.escape(part.title[:1].upper() + part.title[1:])}</h4>")
-            lines += [
-                f"<p>{html.escape(own.of)}: $\\displaystyle {html.escape(own.latex)}$</p>" for own in part.equations
-            ] or ["<p>nothing is free</p>"]
-        return "\n".join(lines)
+        return "\n".join(part._html() for part in self.parts)
 
 
 class FunctionalStudy(Result):
@@ -219,6 +253,10 @@ class FunctionalStudy(Result):
         folder : path
             A folder, which is made where there is none.
         """
+        self._save(folder)
+
+    def _save(self, folder: str | os.PathLike[str]) -> list[Any]:
+        """The names and checksums of what was written."""
         import hashlib
 
         page = self._page.encode()
@@ -226,6 +264,7 @@ class FunctionalStudy(Result):
         files = [{"name": "report.html", "sha256": hashlib.sha256(page).hexdigest()}]
         text = json.dumps(self._data | {"files": files}, indent=2, ensure_ascii=False) + "\n"
         write(os.path.join(folder, "study.json"), text.encode())
+        return list(files)
 
     def verify(self) -> Verification:
         """Decides the record again from the texts in it.
@@ -251,7 +290,7 @@ class FunctionalStudy(Result):
         return notebook.verdicts(self.verdicts) + "".join(map(notebook.paragraph, self.notices))
 
 
-class Functional:
+class Functional(Shown):
     """A functional of fields over space.
 
     It is made by :meth:`from_file`, :meth:`from_text` or :meth:`from_gallery`.
@@ -344,7 +383,7 @@ class Functional:
         """
         return cls._of(native.Functional.from_texts(*of_gallery(name), _pairs(set)))
 
-    def with_values(self, **values: Value) -> Functional:
+    def with_values(self, /, **values: Value) -> Functional:
         """The same functional with other values of sizes and parameters.
 
         Parameters
@@ -397,8 +436,8 @@ class Functional:
         fields = ", ".join(f"{name} ({kind})" for name, kind in self.fields.items())
         return f"<Functional {self.name}: {fields}; {self.dimensions} dimension{'s' if self.dimensions > 1 else ''}>"
 
-    def _repr_html_(self) -> str:
-        return f"<b>{html.escape(self.name)}</b><pre>{html.escape(self.text)}</pre>"
+    def _html(self) -> str:
+        return notebook.unfolding(repr(self)[12:-1], notebook.preformatted(self.text))
 
     def check(self) -> Check:
         """Everything wrong or doubtful in the file.
@@ -449,11 +488,11 @@ class Functional:
         FunctionalStudy
             Verdicts on the claims.
         """
-        words = "" if claims is None else claims if isinstance(claims, str) else ",".join(claims)
+        named = words("claims", claims) or ""
         with _Progress(progress) as tell:
-            found = FunctionalStudy(*self._native.study(words, tell))
+            found = FunctionalStudy(*self._native.study(named, tell))
         if out is not None:
-            found.save(out)
+            found._data["files"] = found._save(out)
         return found
 
     def explain(self, claim: str = "functional.euler") -> Explanation:

@@ -6,7 +6,7 @@ import builtins
 import json
 import os
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, overload
 
 from . import chetaev_native as native
 from .results import Result, write
@@ -30,8 +30,15 @@ class Gallery(Result):
     def __contains__(self, name: object) -> bool:
         return any(own["name"] == name for own in self._listed())
 
-    def __getitem__(self, which: int) -> str:
-        return str(self._listed()[which]["name"])
+    @overload
+    def __getitem__(self, which: int) -> str: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> _list[str]: ...
+
+    def __getitem__(self, which: int | slice) -> str | _list[str]:
+        """A name by its number, or several."""
+        return [*self][which]
 
 
 def list() -> Gallery:  # noqa: A001

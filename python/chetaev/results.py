@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
-from . import notebook, written
+from . import formulas, notebook, written
 from .asked import number, whole
 from .asked import seconds as seconds_of
 from .keywords import in_python, of_data
@@ -134,7 +134,7 @@ class Check(Result):
         return written.problems(self.diagnostics, super()._html())
 
 
-class Equation:
+class Equation(Result):
     """An equation ``left = right``.
 
     Attributes
@@ -148,20 +148,45 @@ class Equation:
         In LaTeX.
     """
 
-    def __init__(self, data: Mapping[str, str]) -> None:
+    def __init__(self, data: Mapping[str, str], place: tuple[Formulation, str, int] | None = None) -> None:
+        super().__init__(dict(data), f"{data['left']} = {data['right']}")
         self.label = data["label"]
         self.left = data["left"]
         self.right = data["right"]
         self.latex = data["latex"]
+        self._place = place
 
-    def __repr__(self) -> str:
-        return f"{self.left} = {self.right}"
+    def to_latex(self) -> str:
+        """The equation in LaTeX.
 
-    def _repr_latex_(self) -> str:
+        Returns
+        -------
+        str
+            For mathematics in a document with amsmath.
+        """
+        return self.latex
+
+    def to_sympy(self) -> Any:
+        """The equation in SymPy, as :meth:`Derivation.to_sympy` has it.
+
+        Returns
+        -------
+        sympy.Eq
+            Unknowns of linear systems that equations share stay symbols.
+        """
+        if self._place is None:
+            raise ValueError("only the equations of a derivation are written in SymPy")
+        formulation, title, number = self._place
+        return formulation.to_sympy()[title][number]
+
+    def _latex(self) -> str | None:
         return f"$\\displaystyle {self.latex}$"
 
+    def _html(self) -> str:
+        return f"<p>{html.escape(self._latex() or '')}</p>"
 
-class Formulation:
+
+class Formulation(Result):
     """The equations of motion in one form.
 
     Attributes
@@ -180,7 +205,7 @@ class Formulation:
         Intermediate results, as momenta, by their names.
     """
 
-    def __init__(self, data: dict[str, Any]) -> None:
+    def __init__(self, data: dict[str, Any], derivation: Derivation | None = None) -> None:
         self.name: str = data["formulation"]
         self.not_derived: str | None = data.get("not_derived")
         self.title: str = data.get("title", self.name)
@@ -188,22 +213,20 @@ class Formulation:
         self.principle: str = data.get("principle", "")
         self.state: list[str] = data.get("state", [])
         self.groups: dict[str, list[Equation]] = {
-            group["title"]: [Equation(own) for own in group["equations"]] for group in data.get("groups", [])
+            group["title"]: [Equation(own, (self, group["title"], number)) for number, own in enumerate(group["equations"])]
+            for group in data.get("groups", [])
         }
         self.objects: dict[str, dict[str, Any]] = {own["name"]: own for own in data.get("objects", [])}
+        self._derivation = derivation
+        lines = [self.title]
+        for heading, equations in self.groups.items():
+            lines += [f"{heading}:"] + [f"  {own}" for own in equations]
+        super().__init__(data, "\n".join(lines) if self.not_derived is None else self.not_derived)
 
     @property
     def equations(self) -> list[Equation]:
         """All equations, group by group."""
         return [own for group in self.groups.values() for own in group]
-
-    def __repr__(self) -> str:
-        if self.not_derived is not None:
-            return self.not_derived
-        lines = [self.title]
-        for heading, equations in self.groups.items():
-            lines += [f"{heading}:"] + [f"  {own}" for own in equations]
-        return "\n".join(lines)
 
     def to_latex(self) -> str:
         """The equations in an ``aligned`` environment.
@@ -213,11 +236,30 @@ class Formulation:
         str
             A text for a document with amsmath.
         """
-        rows = [own.latex.replace(" = ", " &= ", 1) for own in self.equations]
-        return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+        return formulas.aligned(own.latex.replace(" = ", " &= ", 1) for own in self.equations)
 
-    def _repr_latex_(self) -> str:
-        return f"$${self.to_latex()}$$"
+    def to_sympy(self) -> dict[str, list[Any]]:
+        """The equations in SymPy by their headings, as :meth:`Derivation.to_sympy` has them.
+
+        Returns
+        -------
+        dict from str to list of sympy.Eq
+            Nothing where the formulation does not apply.
+        """
+        if self._derivation is None:
+            raise ValueError("only the forms of a derivation are written in SymPy")
+        return dict(self._derivation.to_sympy().get(self.name, {}))
+
+    def _latex(self) -> str | None:
+        return f"$${self.to_latex()}$$" if self.groups else None
+
+    def _html(self) -> str:
+        if not self.groups:
+            return super()._html()
+        shown = notebook.heading(self.title)
+        for heading, equations in self.groups.items():
+            shown += notebook.paragraph(heading) + "".join(own._html() for own in equations)
+        return shown
 
 
 def _headed(page: str, titles: set[str]) -> str:
@@ -256,7 +298,7 @@ class Derivation(Result, Sequence[Formulation]):
         self._asked = asked
         self._shown: str | None = None
         self.notes = notes
-        self.formulations = [Formulation(own) for own in data]
+        self.formulations = [Formulation(own, self) for own in data]
         super().__init__(data, "\n\n".join(repr(own) for own in self.formulations))
 
     def __len__(self) -> int:
@@ -283,7 +325,7 @@ class Derivation(Result, Sequence[Formulation]):
         str
             The text.
         """
-        return self._system._native.derive(*self._asked, notation)[0]
+        return self._system._anew().derive(*self._asked, notation)[0]
 
     def to_latex(self) -> str:
         """The equations in LaTeX.
@@ -307,6 +349,10 @@ class Derivation(Result, Sequence[Formulation]):
             Equations by formulation and heading. Unknowns of linear systems that equations share stay symbols, and the systems stand
             under the heading with ``: linear systems`` behind.
         """
+        return {name: {title: list(own) for title, own in groups.items()} for name, groups in self._in_sympy.items()}
+
+    @functools.cached_property
+    def _in_sympy(self) -> dict[str, dict[str, list[Any]]]:
         sections = self._module().sections
         found = {own.name: sections[own.name.replace("-", "_")] for own in self.formulations if own.not_derived is None}
         own = self._system._own
@@ -315,6 +361,9 @@ class Derivation(Result, Sequence[Formulation]):
         return {
             name: {title: [own.back(one) for one in equations] for title, equations in groups.items()} for name, groups in found.items()
         }
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: own for name, own in self.__dict__.items() if name != "_in_sympy"}
 
     def _module(self) -> Module:
         from .trees import Module
@@ -374,7 +423,7 @@ class Steps(Result):
             return str(self)
         if self._system is None:
             raise ValueError("only what System.steps gave is written in LaTeX")
-        return self._system._native.steps(*self._asked, "latex")[0].rstrip("\n")
+        return self._system._anew().steps(*self._asked, "latex")[0].rstrip("\n")
 
     def _is_latex(self) -> bool:
         return str(self).startswith("\\documentclass")
@@ -386,6 +435,44 @@ class Steps(Result):
 
 class Comparison(Result):
     """Two forms of the equations held against each other: what differs, and why it vanishes."""
+
+    def __init__(self, system: System, data: Json, text: str) -> None:
+        super().__init__(data, text)
+        self._system = system
+
+    def to_sympy(self) -> dict[str, dict[str, Any]]:
+        """The differences of the two forms in SymPy.
+
+        Returns
+        -------
+        dict from str to dict from str to sympy.Expr
+            By what is compared, as ``accelerations, second minus first, at any state (q, v)``, and then by whose difference it is: ``x''``.
+
+        Examples
+        --------
+        >>> from chetaev import System
+        >>> found = System.from_gallery("chaplygin-sleigh").compare("routh", "maggi").to_sympy()
+        >>> next(iter(found.values()))
+        {"x''": 0, "y''": 0, "phi''": 0}
+        """
+        return {
+            title: dict(zip(differences, formulas.in_sympy(self._system, differences.values())))
+            for title, differences in written.differences(str(self)).items()
+        }
+
+    def to_latex(self) -> str:
+        """The differences in LaTeX; this needs SymPy.
+
+        Returns
+        -------
+        str
+            For displayed mathematics in a document with amsmath: an ``aligned`` environment for each kind of difference.
+        """
+        shown = []
+        for title, differences in self.to_sympy().items():
+            rows = [f"{formulas.typeset(name)} &= {formulas.expression(own)}" for name, own in differences.items()]
+            shown.append(f"{formulas.words(title)}\\colon\\quad\n{formulas.aligned(rows)}")
+        return "\n\\\\\n".join(shown)
 
     def _html(self) -> str:
         return written.comparison(str(self)) + "".join(map(notebook.paragraph, self._data["notes"]))
@@ -637,12 +724,14 @@ class Linearization(Result):
         Returns
         -------
         tuple of sympy.Matrix, sympy.Matrix
-            E and F, of shape (variables, variables).
+            E and F, of shape (variables, variables). Parameters that a family of motions has brought, as ``speed_1``, are symbols.
         """
         import sympy as sp
 
         rows = self.E + self.F
-        flat = self._system.sympify([own for row in rows for own in row])
+        texts = [own for row in rows for own in row]
+        family = set(formulas.introduced(self._system, texts)) - set(self._data["inputs"])
+        flat = formulas.constants(self._system.sympify(texts, variables=sorted(family)), family)
         width, height = len(self.variables), len(self.E)
         cells = iter(flat)
         whole = [[next(cells) for _ in range(width)] for _ in rows]
@@ -651,7 +740,7 @@ class Linearization(Result):
 
 def _linear_again(kind: type[Linearization], system: System, asked: dict[str, Any]) -> Linearization:
     """Linear equations that were pickled: computed again, exactly."""
-    return kind(system, system._native.stability(asked, None), asked)
+    return kind(system, system._anew().stability(asked, None), asked)
 
 
 class Stability(Linearization):
@@ -699,7 +788,7 @@ class Stability(Linearization):
         return found
 
 
-class Verdict(Shown):
+class Verdict(Result):
     """One claim with its verdict and the evidence.
 
     Attributes
@@ -714,15 +803,43 @@ class Verdict(Shown):
         All of the record: method, bound of the error, seed, counterexample, condition, formulas.
     """
 
-    def __init__(self, data: dict[str, Any]) -> None:
+    def __init__(self, data: dict[str, Any], system: System | None = None) -> None:
         self.data = data
+        self._system = system
         subject = data["subject"]
         self.claim: str = data["claim"] if subject is None else f"{data['claim']}#{subject}"
         self.verdict: str = data["verdict"]
         self.detail: str = data["detail"]
+        super().__init__(data, f"{self.claim}: {self.verdict}: {self.detail}")
 
-    def __repr__(self) -> str:
-        return f"{self.claim}: {self.verdict}: {self.detail}"
+    def to_sympy(self) -> list[Any]:
+        """The formulas of the evidence in SymPy, as an integral that was found.
+
+        Names that the model has not declared, as those of momenta and variations, are functions of the time.
+
+        Returns
+        -------
+        list of sympy.Expr or sympy.Eq
+            Those with two sides are equations; what a record leaves out for its length is left out here too.
+        """
+        texts = [own for own in self.data.get("formulas") or [] if own != "…"]
+        if not texts:
+            return []
+        if self._system is None:
+            raise ValueError("formulas of fields are not written in SymPy; those of a System are")
+        return formulas.in_sympy(self._system, texts)
+
+    def to_latex(self) -> str:
+        """The claim, the verdict and the formulas of the evidence in LaTeX; this needs SymPy.
+
+        Returns
+        -------
+        str
+            For displayed mathematics in a document with amsmath.
+        """
+        said = formulas.words(f"{self.claim}: {self.verdict}")
+        rows = [formulas.row(own) for own in self.to_sympy()]
+        return f"{said}\\quad\n{formulas.aligned(rows)}" if rows else said
 
     def __bool__(self) -> bool:
         raise TypeError("a verdict has no truth value: compare `verdict` with one of the six words")
@@ -886,7 +1003,7 @@ class _Remembered:
     @functools.cached_property
     def _outcome(self) -> Outcome:
         system, what, *asked = self._again
-        found: Outcome = getattr(system._native, what)(*asked)
+        found: Outcome = getattr(system._anew(), what)(*asked)
         return found
 
     def __getattr__(self, name: str) -> Any:
@@ -996,7 +1113,7 @@ class Trajectory(Result):
     @functools.cached_property
     def verdicts(self) -> list[Verdict]:
         """What was decided of the motion: its error, drifts, what the model expects."""
-        return [Verdict(own) for own in json.loads(self._outcome.record([]))["verdicts"]]
+        return [Verdict(own, self._system) for own in json.loads(self._outcome.record([]))["verdicts"]]
 
     @functools.cached_property
     def sol(self) -> DenseOutput:
@@ -1051,7 +1168,7 @@ class Trajectory(Result):
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """Events that were met: name, time, how the function passes zero, state."""
+        """Events that were met: ``event``, its name; ``t``, the time; ``zero``, how its function passes zero; ``state``, names with values."""
         return list(self.to_dict()["events"])
 
     def to_numpy(self) -> NDArray[np.float64]:
@@ -1230,8 +1347,14 @@ class Trajectory(Result):
         folder : path
             A folder, which is made where there is none.
         """
-        for name, content in _data_files(self._outcome).items():
+        self._save(folder)
+
+    def _save(self, folder: str | os.PathLike[str]) -> list[Any]:
+        """The names of what was written."""
+        files = _data_files(self._outcome)
+        for name, content in files.items():
             write(os.path.join(folder, name), content)
+        return list(files)
 
     def render_static(self) -> str:
         """HTML with the report inside, which exported notebooks keep.
@@ -1253,7 +1376,7 @@ class Trajectory(Result):
         shown = notebook.paragraph(said) + notebook.table(["", "at the start", "at the end"], state)
         shown += notebook.unfolding("drift", notebook.table(["of", "largest change", "largest magnitude"], drifts))
         if data["events"]:
-            met = [(own["name"], own["t"] if "t" in own else own.get("time")) for own in data["events"]]
+            met = [(own["event"], own["t"]) for own in data["events"]]
             shown += notebook.unfolding(f"{len(met)} events", notebook.table(["event", "t"], met))
         return shown + notebook.unfolding("verdicts", notebook.verdicts(self.verdicts)) + "".join(map(notebook.paragraph, self.notices))
 
@@ -1391,8 +1514,8 @@ class Study(Result):
         self._outcome: Outcome = outcome
         self._again = again
         super().__init__(json.loads(outcome.record([])), text)
-        self.verdicts = [Verdict(own) for own in self._data["verdicts"]]
         system = None if again is None else again[0]
+        self.verdicts = [Verdict(own, system) for own in self._data["verdicts"]]
         self.trajectory = Trajectory(outcome, outcome.summary(), system, None, again) if outcome.has_motion else None
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -1463,6 +1586,10 @@ class Study(Result):
         folder : path
             A folder, which is made where there is none.
         """
+        self._save(folder)
+
+    def _save(self, folder: str | os.PathLike[str]) -> list[Any]:
+        """The names and checksums of what was written."""
         import hashlib
 
         files = _data_files(self._outcome) if self._outcome.has_motion else {}
@@ -1474,6 +1601,52 @@ class Study(Result):
             record["files"].append({"name": name, "sha256": hashlib.sha256(content).hexdigest()})
         text = json.dumps(record, indent=2, ensure_ascii=False) + "\n"
         write(os.path.join(folder, "study.json"), text.encode())
+        return list(record["files"])
+
+    def to_sympy(self) -> dict[str, list[Any]]:
+        """The formulas of the evidence in SymPy by their claims, as :meth:`Verdict.to_sympy`.
+
+        Returns
+        -------
+        dict from str to list of sympy.Expr or sympy.Eq
+            Claims without formulas are left out.
+
+        Examples
+        --------
+        >>> from chetaev import System
+        >>> list(System.from_gallery("chaplygin-sleigh").study(claims="energy.integral").to_sympy())
+        ['energy.integral']
+        """
+        return {own.claim: own.to_sympy() for own in self.verdicts if own.data.get("formulas")}
+
+    def to_latex(self) -> str:
+        """The claims with their verdicts and the formulas of the evidence in LaTeX; this needs SymPy.
+
+        Returns
+        -------
+        str
+            For displayed mathematics in a document with amsmath, a line for each claim.
+        """
+        return "\n\\\\\n".join(own.to_latex() for own in self.verdicts)
+
+    def verify(self, *, budget: float = 120.0, independent: bool = False) -> Verification:
+        """Decides the record again by other random choices, or has it examined by a program that shares nothing: :func:`chetaev.verify`.
+
+        Parameters
+        ----------
+        budget : float
+            Work allowed for each of the two replays, in seconds of a usual machine.
+        independent : bool
+            Lets the checker examine the record instead.
+
+        Returns
+        -------
+        Verification
+            What is said of each verdict.
+        """
+        from .claims import verify
+
+        return verify(self, budget=budget, independent=independent)
 
     def render_static(self) -> str:
         """HTML with the report inside, which exported notebooks keep.

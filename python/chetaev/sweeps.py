@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import notebook
-from .asked import whole
+from .asked import mapping, whole
 from .errors import Interrupted
 from .results import Result, writable, write
 from .texts import exact
@@ -167,7 +167,7 @@ def _in_words(data: Mapping[str, Any]) -> str:
 def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     """Ranges as the texts of the command line: texts as they are, lists and arrays value by value."""
     found = []
-    for name, own in (given or {}).items():
+    for name, own in mapping("ranges", given).items():
         values = [own] if isinstance(own, str) or not isinstance(own, Iterable) else list(_whole_values(name, own))
         found.append((name, ",".join(exact(value) for value in values)))
     return found
@@ -180,10 +180,20 @@ def table_text(rows: Any) -> str | None:
     if isinstance(rows, (str, os.PathLike)):
         with open(rows, encoding="utf-8") as file:
             return file.read()
-    columns = columns_of({name: rows[name] for name in rows})
+    columns = columns_of({name: rows[name] for name in _names(rows)})
     lines = [",".join(f'"{name}"' for name in columns)]
     lines += [",".join(map(repr, values)) for values in zip(*(own.tolist() for own in columns.values()))]
     return "\n".join(lines) + "\n"
+
+
+def _names(rows: Any) -> list[str]:
+    """Names of the columns of a table of pyarrow, a frame of pandas or polars, a structured array, a mapping or a dataset."""
+    for found in (getattr(rows, "column_names", None), getattr(rows, "columns", None), getattr(getattr(rows, "dtype", None), "names", None)):
+        if found is not None:
+            return list(found)
+    if not hasattr(rows, "keys"):
+        raise TypeError(f"rows: a path, a mapping from names to arrays, or a table with named columns is needed, not {type(rows).__name__}")
+    return list(rows.keys())
 
 
 def _whole_values(name: str, own: Any) -> Any:
@@ -202,7 +212,12 @@ def _reals(name: str, own: Any) -> NDArray[np.float64]:
     found = np.asarray(_whole_values(name, own))
     if np.iscomplexobj(found):
         raise TypeError(f"`{name}` is complex, and values are real")
-    return np.atleast_1d(found.astype(np.float64))
+    try:
+        if found.dtype.kind in "mM":
+            raise TypeError(f"{found.dtype} counts from a day of choice")
+        return np.atleast_1d(found.astype(np.float64))
+    except (TypeError, ValueError) as problem:
+        raise type(problem)(f"`{name}`: numbers are needed, and {problem}") from None
 
 
 def columns_of(given: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
@@ -248,9 +263,9 @@ def ensemble(
     system : System
         The system.
     initial, parameters : mapping from names to arrays of shape (trajectories,)
-        What differs from trajectory to trajectory; a number holds for all.
+        What differs from trajectory to trajectory; a number holds for all. For a system from SymPy its symbols and functions are names too.
     samples : int
-        States kept along each trajectory, at equal intervals with both ends.
+        States kept along each trajectory, a million at most, at equal intervals with both ends.
     threads : int, optional
         Threads of this process, as many as the machine runs at once when left out; with an executor each task has one.
     executor : concurrent.futures.Executor or distributed.Client, optional
@@ -260,9 +275,9 @@ def ensemble(
         Trajectories in one task and in one file.
     out : path, optional
         A folder for one Parquet file a chunk (this needs pyarrow), written by rename under a name that follows from what is computed: a
-        computation that was interrupted or killed goes on with the chunks that are missing.
+        computation that was interrupted or killed goes on with the chunks that are missing, or whose files cannot be read to their ends.
     **motion
-        ``t_end``, ``tolerance``, ``method`` and the other keywords of :meth:`System.simulate`.
+        ``t_end``, ``tolerance``, ``method`` and the other keywords of a motion, as :meth:`System.simulate` has them; no others.
     progress : bool
         Whether a progress bar is shown, where tqdm is installed.
 
@@ -273,6 +288,8 @@ def ensemble(
 
     Raises
     ------
+    TypeError
+        For a keyword that is none of a motion.
     Interrupted
         By Ctrl-C; its ``result`` has the trajectories that had ended, and is ``None`` where no chunk had.
 
@@ -284,10 +301,17 @@ def ensemble(
     >>> found["end_x"].shape
     (9,)
     """
-    twice = set(parameters or {}) & set(initial or {})
+    from .system import _ROWS
+
+    own, start = system._by_names("parameters", parameters), system._by_names("initial", initial)
+    twice = set(own) & set(start)
     if twice:
         raise ValueError(f"`{min(twice)}` stands among the parameters and among the initial values")
-    columns = columns_of({**(parameters or {}), **(initial or {})})
+    columns = columns_of({**own, **start})
+    _known(motion)
+    samples = whole("samples", samples, 0, _ROWS)
+    if executor is not None and not hasattr(executor, "submit"):
+        raise TypeError(f"executor: one of concurrent.futures, or a client of Dask, is needed, not {type(executor).__name__}")
     if not columns:
         raise ValueError("nothing varies: give arrays in `initial` or `parameters`")
     if executor is None and out is None:
@@ -296,10 +320,22 @@ def ensemble(
     writable(out)
     count = len(next(iter(columns.values())))
     tasks = [
-        _Task(system, {name: own[first : first + chunk] for name, own in columns.items()}, samples, motion, out, executor is None, threads)
+        _Task(system, {name: values[first : first + chunk] for name, values in columns.items()}, samples, motion, out, executor is None, threads)
         for first in range(0, count, chunk)
     ]
     return _joined(_ended(tasks, executor, progress))
+
+
+def _known(motion: Mapping[str, Any]) -> None:
+    """Whether keywords are those of a motion: others would be no part of what a chunk is called by."""
+    import inspect
+
+    from .system import System
+
+    own = set(inspect.signature(System.simulate).parameters) - {"self", "initial", "out", "progress"}
+    for name in motion:
+        if name not in own:
+            raise TypeError(f"`{name}` is no keyword of ensemble, nor of a motion: {', '.join(sorted(own))}")
 
 
 class _Task:
@@ -310,47 +346,52 @@ class _Task:
         out: str | os.PathLike[str] | None, here: bool, threads: int | None,
     ) -> None:
         self.system, self.columns, self.samples, self.motion = system, columns, samples, motion
-        self.threads = threads if here else 1
+        self.is_here, self.threads = here, threads if here else 1
         self.key = self._key()
         self.path = None if out is None else os.path.join(os.path.abspath(out), f"{self.key}.parquet")
 
     def _key(self) -> str:
         """What is the same for equal computations, and for no others."""
         from . import __version__
+        from .system import _asked
 
-        words = {name: value if isinstance(value, bool) or value is None else str(value) for name, value in self.motion.items()}
-        said = json.dumps([__version__, self.system._native.texts(), self.samples, words, list(self.columns)], sort_keys=True)
+        # Exact texts and numbers.
+        asked = _asked(**self.motion)
+        said = json.dumps([__version__, self.system._native.texts(), self.samples, asked, list(self.columns)], sort_keys=True)
         digest = hashlib.sha256(said.encode())
         for own in self.columns.values():
             digest.update(own.tobytes())
         return digest.hexdigest()[:32]
 
     def __call__(self) -> tuple[Any, dict[int, str], list[str]]:
-        """Arrays, failures, names of events; of a chunk that is kept in a file its path."""
-        if self.path is not None and _is_kept(self.path):
-            return self.path, {}, []
-        found = self.system.sweep(rows=self.columns, samples=self.samples, threads=self.threads, **self.motion)
-        if self.path is None:
-            return found._arrays, found.failures, list(found.to_dict()["events"])
-        import pyarrow.parquet as parquet
-
-        sink = io.BytesIO()
-        table = found.to_arrow()
-        parquet.write_table(table.replace_schema_metadata({"events": json.dumps(list(found.to_dict()["events"]))}), sink)
-        write(self.path, sink.getvalue())
-        return self.path, {}, []
+        """Arrays, failures, names of events; of a chunk that another process keeps in a file its path."""
+        chunk = None if self.path is None else _kept(self.path)
+        if chunk is None:
+            found = self.system.sweep(rows=self.columns, samples=self.samples, threads=self.threads, **self.motion)
+            chunk = found._arrays, found.failures, list(found.to_dict()["events"])
+            if self.path is not None:
+                _keep(self.path, *chunk)
+        return chunk if self.path is None or self.is_here else (self.path, {}, [])
 
 
-def _is_kept(path: str) -> bool:
-    """Whether a chunk is kept in a file; one that a broken disk has left is computed again."""
-    import pyarrow as pa
+def _keep(path: str, arrays: Arrays, failures: Mapping[int, str], events: Sequence[str]) -> None:
+    """Writes a chunk, with checksums."""
     import pyarrow.parquet as parquet
 
+    sink = io.BytesIO()
+    table = _table(arrays, failures).replace_schema_metadata({"events": json.dumps(list(events))})
+    parquet.write_table(table, sink, write_page_checksum=True)
+    write(path, sink.getvalue())
+
+
+def _kept(path: str) -> tuple[Arrays, dict[int, str], list[str]] | None:
+    """A chunk that is kept in a file; ``None`` where there is none, or where a broken disk has left one that cannot be read to its end."""
+    import pyarrow as pa
+
     try:
-        parquet.read_metadata(path)
-    except (OSError, pa.ArrowException):
-        return False
-    return True
+        return _read(path)
+    except (OSError, ValueError, KeyError, pa.ArrowException):
+        return None
 
 
 def _call(task: _Task) -> tuple[Any, dict[int, str], list[str]]:
@@ -468,7 +509,7 @@ def _read(path: str) -> tuple[Arrays, dict[int, str], list[str]]:
     import pyarrow as pa
     import pyarrow.parquet as parquet
 
-    table = parquet.read_table(path)
+    table = parquet.read_table(path, page_checksum_verification=True)
     arrays: Arrays = {}
     for name in table.column_names:
         own = table[name].combine_chunks()

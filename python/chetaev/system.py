@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from . import chetaev_native as native
-from .asked import number, seconds, whole
-from .errors import Interrupted, ModelWarning
+from . import notebook
+from .asked import listed, mapping, number, seconds, whole, word, words
+from .errors import Interrupted, ModelWarning, OptionError
 from .keywords import in_python
 from .results import (
     Check,
@@ -24,6 +25,7 @@ from .results import (
     Linearization,
     Picture,
     Result,
+    Shown,
     Stability,
     StabilityMap,
     Steady,
@@ -44,10 +46,12 @@ if TYPE_CHECKING:
 #: A number, a text of the model notation, a fraction, or a SymPy expression.
 Value = Any
 _DEFAULT = ("routh", "maggi")
+#: Rows of one motion that are kept at most, as of ``output`` in a model.
+_ROWS = 10**6
 _Found = TypeVar("_Found", Study, Trajectory)
 
 
-class System:
+class System(Shown):
     """A mechanical system.
 
     Every section of a model file is a keyword; its content is a mapping, or a list where the file has one. Expressions are
@@ -64,7 +68,7 @@ class System:
     lagrangian : expression, or mapping with the keys ``T``, ``V``, ``L``, optional
         The Lagrangian itself.
     constraints : mapping from names to texts, list of texts, or one text, optional
-        Constraints, as ``"y' cos(phi) = x' sin(phi)"``.
+        Constraints, texts or equations of SymPy, as ``"y' cos(phi) = x' sin(phi)"``.
     **sections
         ``parameters``, ``initial``, ``simulation``, ``define``, ``forces``, ``assumptions``, ``steady``, ``events``, ``bodies``, ``joints``,
         ``contacts``, …
@@ -104,7 +108,7 @@ class System:
         kinetic: Value = None,
         potential: Value = None,
         lagrangian: Value = None,
-        constraints: Mapping[str, Value] | Sequence[Value] | str | None = None,
+        constraints: Mapping[str, Value] | Sequence[Value] | Value = None,
         **sections: Any,
     ) -> None:
         energies = dict(lagrangian) if isinstance(lagrangian, Mapping) else {"L": lagrangian}
@@ -114,14 +118,15 @@ class System:
             content["coordinates"] = coordinates
         content["lagrangian"] = {key: own for key, own in energies.items() if own is not None}
         if constraints is not None:
-            if isinstance(constraints, str):
+            # One text, or one equation of SymPy.
+            if isinstance(constraints, str) or not isinstance(constraints, Iterable):
                 constraints = [constraints]
             named = constraints if isinstance(constraints, Mapping) else {
                 f"constraint_{number}": own for number, own in enumerate(constraints, 1)
             }
             content["constraints"] = {key: own if isinstance(own, Mapping) else exact(own) for key, own in named.items()}
         content.update({key: own for key, own in sections.items() if own is not None})
-        self._take(native.Model.from_text(toml({key: own for key, own in content.items() if own != {}}), None, []))
+        self._take(native.Model.from_text(toml({key: own for key, own in content.items() if not _is_empty(own)}), None, []))
 
     def _take(self, model: native.Model) -> System:
         self._native = model
@@ -129,6 +134,14 @@ class System:
         if said:
             warnings.warn(said, ModelWarning, stacklevel=3)
         return self
+
+    def _anew(self) -> native.Model:
+        """The model read anew, to ask one question of it.
+
+        The graph of its expressions remembers what was asked, and the order of terms in sums, and so the last bits of numbers, follow from that. What is
+        computed of a graph of its own follows from the model and the options alone.
+        """
+        return native.Model.from_texts(*self._native.texts())
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], *, set: Mapping[str, Value] | None = None) -> System:
@@ -299,19 +312,20 @@ class System:
         own._own = stated.origins
         return own
 
-    def with_values(self, **values: Value) -> System:
+    def with_values(self, /, **values: Value) -> System:
         """The same system with other values of parameters and sizes; what follows from them changes with them.
 
         Parameters
         ----------
         **values : number, text, fraction or SymPy expression
-            In the units of the model. A parameter that the model defines by others is set by its own name, and follows them no more.
+            In the units of the model; for a system from SymPy in its symbols too, by which parameters may be named as well. A parameter that the
+            model defines by others is set by its own name, and follows them no more.
 
         Returns
         -------
         System
         """
-        return self._with(_pairs(values))
+        return self._with([(self._name_of(name), self._exact(value)) for name, value in values.items()])
 
     def with_initial(self, values: Mapping[Any, Value]) -> System:
         """The same system with other initial values.
@@ -331,12 +345,21 @@ class System:
         >>> System.from_gallery("chaplygin-sleigh").with_initial({"phi'": 2}).initial["phi'"]
         '2'
         """
-        return self._with([(f"initial.{self._name_of(own)}", exact(value)) for own, value in values.items()])
+        return self._with([(f"initial.{self._name_of(own)}", self._exact(value)) for own, value in mapping("initial", values).items()])
 
     def _name_of(self, own: Any) -> str:
-        if isinstance(own, str):
-            return own
-        return self._own.text(own) if self._own is not None else exact(own)
+        """What the model calls a parameter, a coordinate or a velocity, which is named or an object of the statement in SymPy."""
+        if self._own is None:
+            return own if isinstance(own, str) else exact(own)
+        return self._own.name(own) if isinstance(own, str) else self._own.text(own)
+
+    def _exact(self, value: Value) -> str:
+        """A value in the names of the model."""
+        return self._own.text(value) if self._own is not None and hasattr(value, "free_symbols") else exact(value)
+
+    def _by_names(self, keyword: str, given: Any) -> dict[str, Any]:
+        """A keyword from names, or objects of the statement in SymPy, to values."""
+        return {self._name_of(own): value for own, value in mapping(keyword, given).items()}
 
     def _with(self, pairs: list[tuple[str, str]]) -> System:
         path, text, includes, overrides = self._native.texts()
@@ -404,7 +427,7 @@ class System:
     @property
     def following(self) -> dict[str, str]:
         """Parameters that the model defines by others, each with what it is in terms of free ones."""
-        return dict(self._native.following)
+        return dict(self._anew().following)
 
     @property
     def text(self) -> str:
@@ -414,11 +437,8 @@ class System:
     def __repr__(self) -> str:
         return f"<System {self.name}: coordinates {', '.join(self.coordinates)}; constraints {', '.join(self.constraints) or 'none'}>"
 
-    def _repr_html_(self) -> str:
-        import html
-
-        said = f"{html.escape(repr(self)[8:-1])}"
-        return f"<details><summary>{said}</summary><pre>{html.escape(self.text)}</pre></details>"
+    def _html(self) -> str:
+        return notebook.unfolding(repr(self)[8:-1], notebook.preformatted(self.text))
 
     def sympify(self, expressions: Sequence[str] | str, *, variables: Sequence[str] = ()) -> Any:
         """Expressions of the model notation in SymPy, exactly.
@@ -453,7 +473,7 @@ class System:
 
         from .trees import Module, replaced, solved
 
-        module = Module(self._native.sympy(list(texts), list(variables)), ["found"])
+        module = Module(self._anew().sympy(list(texts), list(variables)), ["found"])
         # A number alone is one of Python in the module.
         found = [sp.sympify(own) for own in module.sections["found"]["all"]]
         rows = module.sections["found"].get("all: linear systems", [])
@@ -477,7 +497,7 @@ class System:
         Check
             Its ``diagnostics``, and whether there is no error.
         """
-        text, data, has_errors = self._native.check()
+        text, data, has_errors = self._anew().check()
         return Check(json.loads(data), text, has_errors)
 
     @overload
@@ -516,12 +536,12 @@ class System:
         NotDerivedError
             Where a formulation that was named does not apply.
         """
-        names = [formulation] if isinstance(formulation, str) else list(formulation)
+        names = listed("formulation", formulation)
         with _Progress(progress) as tell:
             if count:
-                return Counts(*self._native.count(names or ["reduced"], all, tell))
+                return Counts(*self._anew().count(names or ["reduced"], all, tell))
             asked = (names or list(_DEFAULT), all)
-            text, notes = self._native.derive(*asked, "json", tell)
+            text, notes = self._anew().derive(*asked, "json", tell)
         return Derivation(self, asked, json.loads(text), notes)
 
     def steps(
@@ -550,10 +570,10 @@ class System:
         Steps
             Its text is the derivation.
         """
-        names = [formulation] if isinstance(formulation, str) else list(formulation)
+        names = listed("formulation", formulation)
         with _Progress(progress) as tell:
             asked = (names or ["reduced"], all)
-            return Steps(*self._native.steps(*asked, notation, tell), self, asked)
+            return Steps(*self._anew().steps(*asked, notation, tell), self, asked)
 
     def compare(self, a: str, b: str, *, progress: bool = False) -> Comparison:
         """Holds two forms of the equations against each other: ``derive --compare a b``.
@@ -573,8 +593,8 @@ class System:
             Its text says what differs, and why it vanishes.
         """
         with _Progress(progress) as tell:
-            text, notes = self._native.compare(a, b, tell)
-        return Comparison({"a": a, "b": b, "text": text, "notes": notes}, text)
+            text, notes = self._anew().compare(a, b, tell)
+        return Comparison(self, {"a": a, "b": b, "text": text, "notes": notes}, text)
 
     def study(
         self,
@@ -629,16 +649,16 @@ class System:
         Study
             Verdicts by claim, and the trajectory.
         """
-        words = claims if claims is None or isinstance(claims, str) else ",".join(claims)
-        if words == "":
-            raise ValueError("claims: none is named; leave it out for all of them")
+        named = words("claims", claims)
+        if named == "":
+            raise OptionError("claims: none is named; leave it out for all of them")
         asked = _asked(
-            claims=words, budget=budget, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            claims=named, budget=budget, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
         writable(out)
         with _Progress(progress) as tell:
-            outcome = self._native.study(asked, tell)
+            outcome = self._anew().study(asked, tell)
         return _finished(Study(outcome, outcome.summary(), (self, "study", asked)), outcome, out)
 
     def simulate(
@@ -704,7 +724,7 @@ class System:
         >>> float(motion["phi'"][0]), motion.y.shape == (len(motion), len(motion.names))
         (2.0, True)
         """
-        if initial:
+        if initial is not None:
             return self.with_initial(initial).simulate(
                 out=out, progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
                 formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
@@ -715,7 +735,7 @@ class System:
         )
         writable(out)
         with _Progress(progress) as tell:
-            outcome = self._native.simulate(asked, tell)
+            outcome = self._anew().simulate(asked, tell)
         return _finished(Trajectory(outcome, outcome.summary(), self, asked), outcome, out)
 
     def plot(
@@ -847,17 +867,17 @@ class System:
         Study
         """
         if kappa and not compare:
-            raise ValueError("kappa: it needs compare=True")
+            raise OptionError("kappa: it needs compare=True")
         if out is not None and not compare:
-            raise ValueError("out: it needs compare=True")
+            raise OptionError("out: it needs compare=True")
         asked = _asked(
             budget=budget, kappa=kappa, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
         writable(out)
         with _Progress(progress) as tell:
-            outcome = self._native.principles(asked, compare, tell)
-        return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out)
+            outcome = self._anew().principles(asked, compare, tell)
+        return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out, is_told=False)
 
     def sweep(
         self,
@@ -899,7 +919,7 @@ class System:
         seed : int
             What the random values follow from.
         samples : int
-            Keeps so many states of each trajectory, at equal intervals with both ends.
+            Keeps so many states of each trajectory, a million at most, at equal intervals with both ends.
         threads : int, optional
             As many as the machine runs at once when left out; the results do not depend on them.
         stop_on_failure : bool
@@ -930,7 +950,7 @@ class System:
         """
         from .sweeps import computed, ranges, table_text
 
-        samples, seed = whole("samples", samples, 0, 2**32 - 1), whole("seed", seed, 0)
+        samples, seed = whole("samples", samples, 0, _ROWS), whole("seed", seed, 0)
         count = None if count is None else whole("count", count, 1)
         threads = None if threads is None else whole("threads", threads, 1, 4096)
         asked = _asked(
@@ -938,15 +958,16 @@ class System:
             formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
         )
         varied = {
-            "vary": ranges(vary), "initial": ranges(initial), "rows": table_text(rows), "zip": zip, "count": count, "seed": seed,
-            "samples": samples,
+            "vary": ranges(self._by_names("vary", vary)), "initial": ranges(self._by_names("initial", initial)), "rows": table_text(rows),
+            "zip": bool(zip), "count": count, "seed": seed, "samples": samples,
         }
         writable(out)
         with _Progress(progress) as tell:
-            prepared = self._native.sweep(asked, varied, tell)
+            prepared = self._anew().sweep(asked, varied, tell)
             found, interrupted = computed(prepared, (0, prepared.count), threads, stop_on_failure, tell)
         if out is not None:
             found.save(out)
+            found._data["archive"] = os.path.join(os.fspath(out), "sweep.npz")
         if interrupted:
             raise Interrupted(found)
         return found
@@ -972,7 +993,7 @@ class System:
         ['1']
         """
         with _Progress(progress) as tell:
-            text, data = self._native.steady(symbolic, tell)
+            text, data = self._anew().steady(symbolic, tell)
         return Steady(self, json.loads(data), text)
 
     def linearize(
@@ -1019,7 +1040,7 @@ class System:
         """
         wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic, numbers=numbers, all=all)
         with _Progress(progress) as tell:
-            found = self._native.stability(wanted, tell)
+            found = self._anew().stability(wanted, tell)
         result = Linearization(self, found, wanted)
         if save is not None:
             result.save(save)
@@ -1048,7 +1069,7 @@ class System:
         """
         wanted = _wanted(about=about, over=over, at=at)
         with _Progress(progress) as tell:
-            found = self._native.stability(wanted, tell)
+            found = self._anew().stability(wanted, tell)
         return Stability(self, found, wanted)
 
     def stability_map(
@@ -1070,8 +1091,9 @@ class System:
         StabilityMap
             Regions with their boundaries.
         """
+        wanted = word("over", over), word("about", about), word("at", at)
         with _Progress(progress) as tell:
-            text, data, picture = self._native.stability_map(over, about, at, tell)
+            text, data, picture = self._anew().stability_map(*wanted, tell)
         return StabilityMap(json.loads(data), text, picture)
 
     def follow(
@@ -1109,9 +1131,10 @@ class System:
         Followed
             Points along the curve, and special ones.
         """
-        points = whole("points", points, 1, 2**32 - 1)
+        points, step = whole("points", points, 1, 2**32 - 1), number("step", step)
+        about, over, period = word("about", about), word("over", over), word("period", period)
         with _Progress(progress) as tell:
-            text, data = self._native.follow(about, over, orbit, period, points, step, tell)
+            text, data = self._anew().follow(about, over, orbit, period, points, step, tell)
         return Followed(json.loads(data), text)
 
     def along(self, *, progress: bool = False) -> LinearAlong:
@@ -1134,7 +1157,7 @@ class System:
         (['u', 'w'], True)
         """
         with _Progress(progress) as tell:
-            text, data = self._native.along(tell)
+            text, data = self._anew().along(tell)
         return LinearAlong(json.loads(data), text)
 
     def sensitivity(
@@ -1160,13 +1183,14 @@ class System:
         """
         import numpy as np
 
-        names = by if isinstance(by, str) else ",".join(by)
+        given = [by] if isinstance(by, str) or not isinstance(by, Iterable) else list(by)
+        names = ",".join(self._name_of(own) for own in given)
         with _Progress(progress) as tell:
-            columns, rows = self._native.sensitivity(names, second, [float(t) for t in times], tell)
+            columns, rows = self._anew().sensitivity(names, second, [float(t) for t in times], tell)
         table = np.array(rows, dtype=np.float64).reshape(-1, len(columns))
         return Columns({name: table[:, place].copy() for place, name in enumerate(columns)})
 
-    def compile(self, **values: Value) -> Compiled:
+    def compile(self, /, **values: Value) -> Compiled:
         """The equations of motion as functions of NumPy arrays, with the values of the model or these ones.
 
         Parameters
@@ -1190,7 +1214,7 @@ class System:
         return Compiled(self.with_values(**values) if values else self)
 
     def widget(
-        self, *, width: int = 720, height: int = 405, motion: Mapping[str, Any] | None = None, **ranges: tuple[float, float]
+        self, /, *, width: int = 720, height: int = 405, motion: Mapping[str, Any] | None = None, **ranges: tuple[float, float]
     ) -> Widget:
         """A picture of the motion with live sliders for parameters and for the time; it needs anywidget.
 
@@ -1217,7 +1241,7 @@ class System:
         """
         from .widget import Widget
 
-        return Widget(self, ranges, (width, height), motion or {})
+        return Widget(self, self._by_names("ranges", ranges), (width, height), motion or {})
 
     def to_jax(self, formulation: str | None = None) -> Exported:
         """The equations of motion as a pure JAX function ``rhs(t, y, p)``, to be differentiated, mapped and compiled.
@@ -1268,7 +1292,7 @@ class System:
     def _exported(self, library: Callable[[], Any], formulation: str | None) -> Exported:
         from .exported import Exported, names_of, regular_form
 
-        name, source = regular_form(self._native) if formulation is None else (formulation, self._native.derive([formulation], False, "python")[0])
+        name, source = regular_form(self._anew()) if formulation is None else (formulation, self._anew().derive([formulation], False, "python")[0])
         return Exported(source, library, names_of(source), name)
 
 
@@ -1296,7 +1320,12 @@ def of_gallery(name: str) -> tuple[str, str, list[tuple[str, str]]]:
 
 
 def _pairs(values: Mapping[str, Value] | None) -> list[tuple[str, str]]:
-    return [(name, exact(value)) for name, value in (values or {}).items()]
+    return [(name, exact(value)) for name, value in mapping("values", values).items()]
+
+
+def _is_empty(section: Any) -> bool:
+    """Whether a section says nothing."""
+    return isinstance(section, Mapping) and not section
 
 
 def _asked(**options: Any) -> dict[str, Any]:
@@ -1317,8 +1346,7 @@ def _asked(**options: Any) -> dict[str, Any]:
     if asked["branch"] is not None:
         asked["branch"] = whole("branch", asked["branch"], 1)
     for name in ("claims", "method", "precision", "formulation"):
-        if asked[name] is not None and not isinstance(asked[name], str):
-            raise TypeError(f"{name}: a text is needed, not {type(asked[name]).__name__}")
+        asked[name] = word(name, asked[name])
     asked["kappa"] = _pairs(options.get("kappa"))
     return asked
 
@@ -1327,14 +1355,20 @@ def _wanted(**options: Any) -> dict[str, Any]:
     """What is asked of linear equations, lists joined by commas."""
     asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "numbers": False, "all": False, "over": None, "at": None, **options}
     for name in ("speeds", "outputs"):
-        if asked[name] is not None and not isinstance(asked[name], str):
-            asked[name] = ",".join(asked[name])
+        asked[name] = words(name, asked[name])
+    for name in ("about", "over", "at"):
+        asked[name] = word(name, asked[name])
+    for name in ("symbolic", "numbers", "all"):
+        asked[name] = bool(asked[name])
     return asked
 
 
-def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[str] | None) -> _Found:
+def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[str] | None, *, is_told: bool = True) -> _Found:
+    """What was computed, written into a folder; its data name the files where those of the command do."""
     if out is not None:
-        result.save(out)
+        files = result._save(out)
+        if is_told:
+            result._data["files"] = files
     if outcome.interrupted:
         raise Interrupted(result)
     return result

@@ -11,8 +11,15 @@ from decimal import Decimal
 from numbers import Integral, Rational, Real
 from typing import Any
 
+from .errors import ModelError
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+#: Functions of the notation of models, and what SymPy calls them.
+FUNCTIONS = {
+    **{name: name for name in "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sign".split()},
+    "abs": "Abs",
+}
 
 
 def exact(value: Any) -> str:
@@ -35,8 +42,15 @@ def exact(value: Any) -> str:
         return str(value)
     if getattr(value, "shape", None) == () and not hasattr(value, "free_symbols"):
         # An array of one number, of NumPy or of JAX.
-        return exact(value.item())
-    if isinstance(value, Real) and not hasattr(value, "free_symbols"):
+        if getattr(value, "mask", False):
+            raise TypeError("there is no value where an array is masked")
+        plain = value.item()
+        if type(plain) is not type(value):
+            return exact(plain)
+        if isinstance(plain, Real):
+            # What Python has no number for, as NumPy's long double, is the decimal that it prints as.
+            return exact(Decimal(str(plain)))
+    elif isinstance(value, Real) and not hasattr(value, "free_symbols"):
         number = float(value)
         if not math.isfinite(number):
             raise ValueError(f"{number} is no finite number")
@@ -49,7 +63,8 @@ def exact(value: Any) -> str:
 def of_sympy(value: Any) -> str:
     """A SymPy expression, or an equation, as text.
 
-    Functions of the time ``x(t)`` become names, their derivatives names with primes.
+    Functions of the time ``x(t)`` become names, their derivatives names with primes. What the notation of models does not have is refused: its
+    name with brackets behind would be read as a product where a parameter has this name.
     """
     import sympy as sp
     from sympy.printing.str import StrPrinter
@@ -59,7 +74,7 @@ def of_sympy(value: Any) -> str:
             (variable, count), = expr.variable_count
             function = self._print(expr.expr)
             if variable.name not in ("t", "_t") or not count.is_Integer or not _NAME.fullmatch(function):
-                raise ValueError(f"{expr} is no derivative of a coordinate with respect to the time")
+                raise ModelError(f"{expr} is no derivative of a coordinate with respect to the time")
             return str(function + "'" * int(count))
 
         def _print_Float(self, expr: Any) -> str:
@@ -72,7 +87,7 @@ def of_sympy(value: Any) -> str:
             if isinstance(expr, sp.core.function.AppliedUndef):
                 if len(expr.args) == 1 and getattr(expr.args[0], "name", "") in ("t", "_t"):
                     return self._name(expr.func.__name__)
-                raise ValueError(f"{expr} is no function of the time alone")
+                raise ModelError(f"{expr} is no function of the time alone")
             own = {"Abs": "abs"}.get(expr.func.__name__, expr.func.__name__)
             return f"{own}({', '.join(self._print(a) for a in expr.args)})"
 
@@ -94,15 +109,30 @@ def of_sympy(value: Any) -> str:
         @staticmethod
         def _name(name: str) -> str:
             if not _NAME.fullmatch(name):
-                raise ValueError(f"`{name}` is no name: letters, digits and underscores are, with a letter first")
+                raise ModelError(f"`{name}` is no name: letters, digits and underscores are, with a letter first")
             return name
 
     value = known_functions(value)
-    for atom in value.atoms(sp.NumberSymbol) - {sp.pi, sp.E}:
-        raise ValueError(f"{atom} has no place in a model: no formula of it is known; put its digits in")
-    for atom in value.atoms(sp.Integral, sp.Piecewise, sp.I.__class__):
-        raise ValueError(f"{atom} has no place in a model")
+    from .trees import nodes
+
+    # The whole before its parts, so that the message names what was written.
+    for own in reversed(nodes([value])):
+        if not _is_in_the_notation(own):
+            is_real = own.is_number and own.evalf().is_Float
+            cure = "put its digits in, as `.evalf()` gives them" if is_real else "write it by these, with finite real numbers"
+            raise ModelError(f"{own} has no place in a model, whose functions are {', '.join(FUNCTIONS)}: {cure}")
     return str(Printer({"order": "none"}).doprint(value))
+
+
+def _is_in_the_notation(own: Any) -> bool:
+    """Whether the notation of models has a node of SymPy: sums, products, powers, numbers, names, their derivatives, relations, its functions."""
+    import sympy as sp
+    from sympy.core.function import AppliedUndef
+
+    if isinstance(own, sp.Function):
+        return isinstance(own, AppliedUndef) or own.func in [getattr(sp, name) for name in FUNCTIONS.values()]
+    kinds = (sp.Add, sp.Mul, sp.Pow, sp.Rational, sp.Float, sp.Symbol, sp.Derivative, sp.Tuple, sp.core.relational.Relational)
+    return isinstance(own, kinds) or own in (sp.pi, sp.E)
 
 
 def known_functions(value: Any) -> Any:
@@ -176,6 +206,7 @@ def _value(value: Any) -> str:
     if isinstance(value, str):
         return _text(value)
     listed: Any = value
-    if isinstance(listed, Sequence) or type(listed).__name__ in ("ndarray", "Tuple"):
+    is_array = type(listed).__name__ in ("ndarray", "Tuple") and getattr(listed, "shape", None) != ()
+    if isinstance(listed, Sequence) or is_array:
         return "[" + ", ".join(_value(own) for own in listed) + "]"
     return _text(exact(listed))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -66,6 +66,34 @@ def comparison(text: str) -> str:
         else:
             found += "".join(_sentence(line) for line in own)
     return found
+
+
+def differences(text: str) -> dict[str, dict[str, str]]:
+    """The formulas of a comparison by what is compared and by whose they are, each with the definitions below ``where``."""
+    found: dict[str, dict[str, str]] = {}
+    for title, lines in _blocks(text):
+        named = [line.partition(" = ") for line in lines if _FORMULA.match(line)]
+        below = [line for line in lines if _part(line) == "definitions"]
+        end = "".join(f"\n{line}" for line in below)
+        if named:
+            found[title] = {name: right + end for name, _, right in named}
+    return found
+
+
+def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
+    """What stands below each line with a colon at its end, up to the first sentence."""
+    title, is_open = "", False
+    lines: list[str] = []
+    for line in text.splitlines():
+        if line.endswith(":") and not _FORMULA.match(line) and not line.startswith("  "):
+            title, lines, is_open = line[:-1], [], True
+        elif is_open and (_FORMULA.match(line) or _part(line) == "definitions"):
+            lines.append(line)
+        elif is_open:
+            yield title, lines
+            is_open = False
+    if is_open:
+        yield title, lines
 
 
 def _part(line: str) -> str:

@@ -91,12 +91,40 @@ def test_c_calls_the_function_at_its_address() -> None:
     matrix = np.empty((4, 4))
     call(0.0, pointer(y), pointer(matrix), pointer(f.jac.data))
     np.testing.assert_array_equal(matrix, f.jac(0.0, y))
-    # A function that lives no more writes nothing.
-    dead = pendulum().compile().rhs.data
+
+
+def test_the_array_for_c_is_one_and_keeps_its_function() -> None:
+    f = pendulum().compile()
+    y, values = state(0.4, 1.3), np.empty(4)
+    data = f.rhs.data
+    assert f.rhs.data is data
+    # What is changed in it holds for the next access, and for no call by Python.
+    f.rhs.data[1 + list(f.parameters).index("g")] = 1.62
+    call, address = f.rhs.ctypes, lambda own: own.ctypes.data
+    call(0.0, address(y), address(values), address(f.rhs.data))
+    np.testing.assert_allclose(values, by_hand(0.4, 1.3, g=1.62), rtol=1e-12)
+    np.testing.assert_allclose(f.rhs(0.0, y), by_hand(0.4, 1.3), rtol=1e-12)
+    copied = data.copy()
+    del f
     gc.collect()
-    values[:] = 7
-    call(0.0, pointer(y), pointer(values), pointer(dead))
+    call(0.0, address(y), address(values), address(data))
+    np.testing.assert_allclose(values, by_hand(0.4, 1.3, g=1.62), rtol=1e-12)
+    # By a copy nobody knows that the function is needed: then there are no values.
+    del data
+    gc.collect()
+    call(0.0, address(y), address(values), address(copied))
+    assert np.isnan(values).all()
+    # What was no function writes nothing.
+    copied[0], values[:] = 1e15, 7
+    call(0.0, address(y), address(values), address(copied))
     assert list(values) == [7] * 4
+
+
+def test_values_for_which_there_is_no_memory_are_an_exception() -> None:
+    f = pendulum().compile()
+    for own in (f.rhs, f.jac):
+        with pytest.raises(MemoryError):
+            own(0.0, np.broadcast_to(f.start, (10**12, 4)))
 
 
 def test_numba_calls_the_function_at_its_address() -> None:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import pickle
+import re
 import subprocess
 import sys
 import time
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import chetaev
@@ -177,3 +180,52 @@ def test_a_system_says_its_state_and_units() -> None:
     )
     assert stated.units == {"x": "m", "m": "kg", "k": "kg/s^2"}
     assert skate().units == {} and skate().state == ["x", "y", "phi", "x'", "y'", "phi'"]
+
+
+def oscillator(**sections: Any) -> System:
+    """x'' = -k x."""
+    return System("o", **{"coordinates": ["x"], "parameters": {"k": 1}, "kinetic": "1/2 x'^2", "potential": "1/2 k x^2", **sections})
+
+
+def test_numbers_of_numpy_are_values() -> None:
+    # The value of a long double is the decimal that it prints as, as that of a float.
+    assert exact(np.longdouble("0.1")) == str(np.longdouble("0.1"))
+    assert oscillator(parameters={"k": np.array(2.0)}).parameters == oscillator().with_values(k=np.array(2.0)).parameters == {"k": "2"}
+    assert oscillator(coordinates=np.array(["x"])).coordinates == ["x"]
+    with pytest.raises(TypeError, match="no value where an array is masked"):
+        oscillator().with_values(k=np.ma.masked)
+    for wrong in (np.longdouble("nan"), np.longdouble("inf")):
+        with pytest.raises(ValueError, match="no finite number"):
+            exact(wrong)
+    with pytest.raises(TypeError, match="not clongdouble"):
+        exact(np.clongdouble(1j))
+
+
+def test_a_parameter_may_be_called_self() -> None:
+    system = System("s", coordinates=["x"], parameters={"self": 1}, kinetic="1/2 x'^2", potential="1/2 self x^2")
+    assert system.with_values(**{"self": 4}).parameters == {"self": "4"}
+    assert system.compile(**{"self": 4}).rhs(0.0, [1.0, 0.0])[1] == -4.0
+    pytest.importorskip("anywidget")
+    assert system.with_initial({"x": 1}).widget(motion={"t_end": 1}, **{"self": (1, 2)}).values == {"self": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("work", "said"),
+    [
+        (lambda system: system.linearize(about="rest", at=5), "at: a text is needed, not 5"),
+        (lambda system: system.linearize(about=3), "about: a text is needed, not 3"),
+        (lambda system: system.linearize(speeds=[1]), "speeds: a text, or a list of texts, is needed"),
+        (lambda system: system.stability(over=1), "over: a text is needed, not 1"),
+        (lambda system: system.stability_map(over=1), "over: a text is needed, not 1"),
+        (lambda system: system.follow(period=1), "period: a text is needed, not 1"),
+        (lambda system: system.study(claims=[3]), "claims: a text, or a list of texts, is needed"),
+        (lambda system: system.derive([3]), "formulation: a text, or a list of texts, is needed"),
+        (lambda system: system.simulate(initial=[1]), "initial: a mapping from names to values is needed, not list"),
+        (lambda system: system.with_initial("x"), "initial: a mapping from names to values is needed, not str"),
+        (lambda system: system.sweep(vary=[1]), "vary: a mapping from names to values is needed, not list"),
+        (lambda system: system.sweep(rows=[[1]]), "rows: a path, a mapping from names to arrays, or a table"),
+    ],
+)
+def test_a_keyword_of_another_kind_is_told_by_its_name(work: Any, said: str) -> None:
+    with pytest.raises(TypeError, match=re.escape(said)):
+        work(oscillator())

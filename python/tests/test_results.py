@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import pickle
@@ -446,3 +447,130 @@ def test_where_nothing_can_be_written_nothing_is_computed(sleigh: System, tmp_pa
         with pytest.raises(NotADirectoryError, match="file"):
             work()
     assert time.perf_counter() - began < 5
+
+
+def falling() -> System:
+    """x = 1 - t^2/2, which meets the ground at sqrt(2)."""
+    return System(
+        "falling", coordinates=["x"], kinetic="1/2 x'^2", potential="x", initial={"x": 1}, events={"ground": {"when": "x"}}, simulation={"t_end": 2},
+    )
+
+
+def test_motions_with_events_are_shown() -> None:
+    motion = falling().simulate()
+    (met,) = motion.events
+    assert met["event"] == "ground" and met["zero"] == "falling"
+    assert met["t"] == pytest.approx(2**0.5, rel=1e-9)
+    page = motion._repr_mimebundle_()["text/html"]
+    assert "1 events" in page and "ground" in page and "1.41421" in page
+
+
+def test_linear_equations_of_a_family_go_to_sympy() -> None:
+    disc = System.from_gallery("bodies/falling-rolling-disc")
+    upright = next(own for own in disc.steady().motions if own["free"] == ["speed_1"])
+    for linear in (disc.linearize(about=upright["name"]), disc.stability(about=upright["name"])):
+        E, F = linear.to_sympy()
+        (speed,) = E.free_symbols | F.free_symbols
+        assert speed == sp.Symbol("speed_1", real=True)
+        # A disc that rolls upright: A (A + m r^2) s^2 = A m g r - C (C + m r^2) (v/r)^2, with A = m r^2/4 and C = m r^2/2.
+        m, r, g = 2.0, 0.3, 9.81
+        A, C = m * r**2 / 4, m * r**2 / 2
+        for v in (0.2, 2.0):
+            squared = (A * m * g * r - C * (C + m * r**2) * (v / r) ** 2) / (A * (A + m * r**2))
+            found = np.linalg.eigvals(np.array((E.inv() * F).subs(speed, v), dtype=float))
+            np.testing.assert_allclose(sorted((found**2).real), sorted([0, 0, squared, squared]), atol=1e-8)
+
+
+def test_files_that_were_asked_for_are_in_the_data(sleigh: System, command: Any, gallery: Path, tmp_path: Path) -> None:
+    path = str(gallery / "chaplygin-sleigh" / "model.toml")
+
+    def theirs(*arguments: str) -> Any:
+        return command(*arguments, "--t-end", "1", "--out", str(tmp_path / "theirs"))
+
+    out = tmp_path / "ours"
+    motion = sleigh.simulate(t_end=1, out=out).to_dict()
+    assert motion["files"] == theirs("simulate", path)["files"] == ["trajectory.csv", "trajectory.npz"]
+    study = sleigh.study(claims="motion", t_end=1, out=out).to_dict()
+    assert [own["name"] for own in study["files"]] == [own["name"] for own in theirs("study", path, "--claims", "motion")["files"]]
+    for own in study["files"]:
+        assert hashlib.sha256((out / own["name"]).read_bytes()).hexdigest() == own["sha256"]
+    assert study["files"] == json.loads((out / "study.json").read_text())["files"]
+    assert sleigh.sweep(vary={"a": [0.1]}, t_end=1, out=out).to_dict()["archive"] == str(out / "sweep.npz")
+    assert theirs("sweep", path, "--vary", "a=0.1")["archive"] == str(tmp_path / "theirs" / "sweep.npz")
+    principles = sleigh.principles(compare=True, t_end=1, out=out).to_dict()
+    assert principles["files"] == theirs("principles", path, "--compare")["files"]
+    assert sleigh.simulate(t_end=1).to_dict()["files"] == []
+
+
+def test_equations_are_results_one_by_one(sleigh: System) -> None:
+    derived = sleigh.derive(["routh", "maggi"])
+    whole = derived.to_sympy()
+    for form in derived:
+        assert form.to_sympy() == whole[form.name] and form.to_dict()["formulation"] == form.name
+        for title, equations in form.groups.items():
+            # Each is what stands at its place: no equation is missing, and none is another's.
+            assert [own.to_sympy() for own in equations] == whole[form.name][title]
+            for own in equations:
+                assert own.to_latex() == own.latex and own.to_dict()["left"] == own.left
+                assert set(own._repr_mimebundle_()) == {"text/plain", "text/html", "text/latex"}
+        assert form._repr_mimebundle_()["text/latex"].startswith("$$\\begin{aligned}")
+    # The constraint of the blade, up to a factor that is a number.
+    blade = derived["routh"].groups["constraints"][0].to_sympy()
+    t = sp.Symbol("t", real=True)
+    x, y, phi = (sp.Function(name, real=True)(t) for name in ("x", "y", "phi"))
+    ratio = (blade.lhs - blade.rhs) / (x.diff(t) * sp.sin(phi) - y.diff(t) * sp.cos(phi))
+    assert sp.simplify(ratio).is_number
+    again = pickle.loads(pickle.dumps(derived))
+    assert again[0].equations[0].to_sympy() == derived[0].equations[0].to_sympy()
+
+
+def test_formulas_of_verdicts_go_to_sympy_and_latex(sleigh: System) -> None:
+    study = sleigh.study(claims=["energy.integral", "hamilton.stationary"], t_end=1)
+    (energy,) = study.to_sympy()["energy.integral"]
+    t = sp.Symbol("t", real=True)
+    x, y, phi = (sp.Function(name, real=True)(t).diff(t) for name in ("x", "y", "phi"))
+    angle = sp.Function("phi", real=True)(t)
+    m, J, a = (sp.Symbol(name, real=True) for name in ("m", "J", "a"))
+    kinetic = m * ((x - a * phi * sp.sin(angle)) ** 2 + (y + a * phi * sp.cos(angle)) ** 2) / 2 + J * phi**2 / 2
+    assert sp.simplify(energy - kinetic) == 0
+    assert study["energy.integral"].to_sympy() == [energy]
+    # The multiplier of the extremum is a name that the model does not declare.
+    (multiplier,) = study.to_sympy()["hamilton.stationary"]
+    assert multiplier == sp.Eq(sp.Function("kappa_blade", real=True)(t), 0)
+    shown = study.to_latex()
+    assert "\\text{energy.integral: proved}" in shown and "\\dot{\\varphi}" in shown and shown.count("\\begin{aligned}") == 2
+    assert study["energy.integral"].to_dict() == study.to_dict()["verdicts"][[own.claim for own in study].index("energy.integral")]
+    assert study.verify().agrees
+
+
+def test_comparisons_go_to_sympy_and_latex(sleigh: System) -> None:
+    (same,) = sleigh.compare("routh", "maggi").to_sympy().values()
+    assert same == {"x''": 0, "y''": 0, "phi''": 0}
+    compared = sleigh.compare("maggi", "vakonomic")
+    (other,) = compared.to_sympy().values()
+    t = sp.Symbol("t", real=True)
+    x, y, phi, kappa = (sp.Function(name, real=True)(t) for name in ("x", "y", "phi", "kappa_blade"))
+    m, J, a = (sp.Symbol(name, real=True) for name in ("m", "J", "a"))
+    # The extremum of L + kappa f with f = x' sin(phi) - y' cos(phi) turns by kappa ∂f/∂phi about its centre of mass, and slides by kappa'.
+    turning = kappa * (x.diff(t) * sp.cos(phi) + y.diff(t) * sp.sin(phi)) / (J + m * a**2)
+    assert sp.simplify((other["phi''"] / turning) ** 2) == 1
+    assert "\\ddot{\\varphi} &=" in compared.to_latex()
+    # Differences that share linear systems are written out, and contain no unknowns.
+    board = System.from_gallery("bodies/snakeboard").compare("maggi", "voronets").to_sympy()
+    for differences in board.values():
+        names = {own.name for value in differences.values() for own in value.free_symbols}
+        assert names <= {"t", "Jr", "Jw", "board_mass", "l"}
+
+
+def test_whatever_stands_for_a_model_is_shown(sleigh: System) -> None:
+    functional = chetaev.Functional.from_gallery("fields/plate")
+    part, verdict = functional.derive()[0], sleigh.study(claims="model")["model.chaplygin"]
+    for own in (sleigh, sleigh.compile(), functional, part, part.equations[0], verdict):
+        bundle = own._repr_mimebundle_()
+        assert bundle["text/plain"] == repr(own) and own._mime_() == ("text/html", bundle["text/html"])
+    assert part.to_sympy() == functional.derive().to_sympy()[part.title]
+
+
+def test_models_of_the_gallery_are_a_sequence() -> None:
+    names = list(chetaev.gallery.list())
+    assert chetaev.gallery.list()[:3] == names[:3] and chetaev.gallery.list()[-1] == names[-1]

@@ -198,6 +198,7 @@ def test_a_file_that_is_not_whole_is_computed_again(sleigh: System, tmp_path: Pa
     ("keywords", "said"),
     [
         ({"samples": -1}, "samples: a whole number from 0"),
+        ({"samples": 4 * 10**9}, "samples: a whole number from 0 to 1000000"),
         ({"samples": 2.5}, "samples: a whole number is needed, not 2.5"),
         ({"threads": 0}, "threads: a whole number from 1 to 4096"),
         ({"seed": -1}, "seed: a whole number from 0"),
@@ -205,5 +206,87 @@ def test_a_file_that_is_not_whole_is_computed_again(sleigh: System, tmp_path: Pa
     ],
 )
 def test_numbers_out_of_range_are_told_by_their_keyword(sleigh: System, keywords: dict[str, Any], said: str) -> None:
-    with pytest.raises((TypeError, ValueError), match=said):
+    with pytest.raises((TypeError, chetaev.OptionError), match=said):
         sleigh.sweep(vary={"a": [0.1]}, t_end=1, **keywords)
+
+
+@pytest.mark.parametrize("kind", ["pandas", "polars", "pyarrow", "xarray", "structured"])
+def test_rows_are_any_table_with_named_columns(sleigh: System, kind: str) -> None:
+    columns = {"a": np.array([0.2, 0.3]), "phi'": np.array([1.5, 1.25])}
+    if kind == "structured":
+        table: Any = np.rec.fromarrays(list(columns.values()), names=list(columns))
+    else:
+        module = pytest.importorskip(kind)
+        table = {"pandas": "DataFrame", "polars": "DataFrame", "pyarrow": "table", "xarray": "Dataset"}[kind]
+        table = getattr(module, table)({name: ("row", own) for name, own in columns.items()} if kind == "xarray" else columns)
+    same(sleigh.sweep(rows=table, t_end=1), sleigh.sweep(rows=columns, t_end=1))
+
+
+@pytest.mark.parametrize(
+    ("keywords", "said"),
+    [
+        ({"vary": {"m": np.linspace(1, 2, 1500)}}, "`vary` is no keyword of ensemble"),
+        ({"rows": {"m": [1, 2]}}, "`rows` is no keyword"),
+        ({"tolerence": 1e-9}, "`tolerence` is no keyword"),
+        ({"executor": 3}, "executor: one of concurrent.futures, or a client of Dask, is needed, not int"),
+        ({"parameters": [1]}, "parameters: a mapping from names to values is needed, not list"),
+        ({"initial": {"phi": np.array(["2020-01-01"], "M8[D]")}}, "`phi`: numbers are needed"),
+    ],
+)
+def test_keywords_of_an_ensemble_are_those_of_a_motion(sleigh: System, keywords: dict[str, Any], said: str, tmp_path: Path) -> None:
+    # With and without files alike: what a file is called by leaves nothing out.
+    for out in (None, tmp_path):
+        with pytest.raises(TypeError, match=said):
+            chetaev.ensemble(sleigh, **{"parameters": {"a": [0.1, 0.2]}, "t_end": 1, "out": out, **keywords})
+
+
+def test_files_are_called_by_what_is_asked(sleigh: System, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    count = 0
+    for asked, files in [
+        # The same in other words is the same.
+        ([{"t_end": 1}, {"t_end": "1"}, {"t_end": np.int64(1)}, {"t_end": 1, "tolerance": None}], 1),
+        ([{"t_end": 0.3}, {"t_end": np.nextafter(0.3, 1)}], 2),
+        ([{"t_end": 1, "tolerance": 1e-9}, {"t_end": 1, "tolerance": np.nextafter(1e-9, 1)}], 2),
+    ]:
+        for own in asked:
+            chetaev.ensemble(sleigh, parameters={"a": [0.1]}, out=tmp_path, **own)
+        count += files
+        assert len(list(tmp_path.iterdir())) == count
+
+
+@pytest.mark.parametrize("damage", ["cut", "empty", "zeros", "flipped", "footer"])
+def test_a_chunk_that_cannot_be_read_to_its_end_is_computed_again(sleigh: System, damage: str, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    asked: Any = {"parameters": VARIED, "t_end": 1, "chunk": 6, "out": tmp_path}
+    alone = chetaev.ensemble(sleigh, **asked)
+    for path in tmp_path.iterdir():
+        own = path.read_bytes()
+        places = range(4, len(own) // 2, 97) if damage == "flipped" else [0]
+        for place in places:
+            broken = {
+                "cut": own[: len(own) // 3],
+                "empty": b"",
+                "zeros": own[:100] + bytes(300) + own[400:],
+                "flipped": own[:place] + bytes([own[place] ^ 255]) + own[place + 1 :],
+                "footer": own[:-200] + bytes(192) + own[-8:],
+            }[damage]
+            path.write_bytes(broken)
+            same(alone, chetaev.ensemble(sleigh, **asked))
+
+
+def test_names_of_a_statement_in_sympy_are_names_of_columns() -> None:
+    import sympy as sp
+    from sympy.physics.mechanics import dynamicsymbols
+
+    x, k = dynamicsymbols("x"), sp.Symbol("lambda")
+    with pytest.warns(chetaev.ModelWarning, match="called `x_lambda`"):
+        system = System.from_sympy(x.diff() ** 2 / 2 - k * x**2 / 2, [x], parameters={k: 1}, initial={x: 1})
+    squares = np.array([1.0, 4.0])
+    for key in (k, "lambda", "x_lambda"):
+        # x = cos(sqrt(k) t)
+        found = chetaev.ensemble(system, parameters={key: squares}, initial={x.diff(): 0}, t_end=1)
+        np.testing.assert_allclose(found["end_x"], np.cos(np.sqrt(squares)), rtol=1e-8)
+        found = system.sweep(vary={key: squares}, t_end=1)
+        np.testing.assert_allclose(found["end_x"], np.cos(np.sqrt(squares)), rtol=1e-8)
+        assert system.sensitivity([key], [0.0, 1.0])["d x/d x_lambda"][1] == pytest.approx(-np.sin(1) / 2, rel=1e-7)

@@ -13,7 +13,7 @@ import sympy.physics.mechanics as me
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from chetaev import System
+from chetaev import ModelError, ModelWarning, System
 from chetaev.texts import of_sympy
 
 t = me.dynamicsymbols._t
@@ -397,3 +397,117 @@ def test_a_random_system_has_the_accelerations_and_multipliers_that_sympy_solves
     f = System.from_sympy(method).compile()
     np.testing.assert_allclose(f.rhs(0.3, state), expected[:6], atol=1e-13)
     np.testing.assert_allclose(f.reactions(0.3, state), expected[6:], atol=1e-13)
+
+
+X = me.dynamicsymbols("x")
+
+
+@pytest.mark.parametrize(
+    "own",
+    [
+        sp.gamma(X), sp.zeta(X), sp.li(X), sp.re(X), sp.arg(X), sp.conjugate(X), sp.sinc(X), sp.erf(X), sp.Max(X, 2), sp.LambertW(X), sp.Chi(X),
+        sp.beta(X, 2), sp.floor(X), sp.Mod(X, 2), sp.Heaviside(X), sp.besselj(0, X), sp.factorial(X),
+    ],
+    ids=lambda own: own.func.__name__,
+)
+def test_functions_that_a_model_does_not_have_are_no_products(own: Any) -> None:
+    """A parameter that is called as the function would make a product of `gamma(x)`."""
+    name = own.func.__name__
+    g = sp.Symbol(name)
+    for potential in (g * X**2 / 2 + own, g * X**2 / 2 + sp.sin(own) / 3):
+        with pytest.raises(ModelError, match=f"{name}.*has no place in a model, whose functions are"):
+            System.from_sympy(X.diff() ** 2 / 2 - potential, [X], parameters={g: 3})
+    with pytest.raises(ModelError, match="put its digits in, as `.evalf"):
+        System("s", coordinates=["x"], parameters={"gamma": 2, "k": sp.gamma(sp.Rational(1, 3))}, kinetic="1/2 x'^2", potential="1/2 k x^2")
+
+
+def test_a_coordinate_may_be_called_as_a_function_of_sympy() -> None:
+    gamma, k = me.dynamicsymbols("gamma"), sp.Symbol("zeta")
+    f = System.from_sympy(gamma.diff() ** 2 / 2 - k * gamma**2 / 2, [gamma], parameters={k: 4}).compile()
+    np.testing.assert_array_equal(f.rhs(0.0, [0.5, 1.0]), [1.0, -2.0])
+
+
+def test_constraints_on_positions_of_lagranges_method_stay_on_positions() -> None:
+    # A pendulum of length a in x and y: from rest at the height 0 its speed at the height y is sqrt(-2 g y).
+    x, y = me.dynamicsymbols("x y")
+    m, g, a = sp.symbols("m g a")
+    L = m * (x.diff() ** 2 + y.diff() ** 2) / 2 - m * g * y
+    rod = x**2 + y**2 - a**2
+    method = me.LagrangesMethod(L, [x, y], hol_coneqs=[rod], nonhol_coneqs=[])
+    method.form_lagranges_equations()
+    values: dict[Any, Any] = {m: 1, g: 10, a: 2}
+    system = System.from_sympy(method, parameters=values, initial={x: 2}, derived=True, simulation={"tolerance": 1e-12})
+    assert system.constraints == ["position_1"]
+    motion = system.simulate(t_end=1)
+    np.testing.assert_allclose(motion["x"] ** 2 + motion["y"] ** 2, 4, atol=1e-9)
+    np.testing.assert_allclose(motion["x'"] ** 2 + motion["y'"] ** 2, -20 * motion["y"], atol=1e-8)
+    assert system.study(claims="equations.stated")["equations.stated#sympy"].verdict == "proved"
+    with pytest.raises(ModelError):
+        # No state of such a length is at x = 3.
+        System.from_sympy(method, parameters=values, initial={x: 3}).simulate(t_end=1)
+
+
+def test_a_system_by_lagranges_method_keeps_its_constraints_on_positions() -> None:
+    x, y = me.dynamicsymbols("x y")
+    a = sp.Symbol("a")
+    frame, origin = me.ReferenceFrame("N"), me.Point("O")
+    place = origin.locatenew("P", x * frame.x + y * frame.y)
+    origin.set_vel(frame, 0)
+    place.set_vel(frame, x.diff() * frame.x + y.diff() * frame.y)
+    whole = me.System(frame, origin)
+    whole.add_bodies(me.Particle("bob", place, 1))
+    whole.add_coordinates(x, y)
+    u, v = me.dynamicsymbols("u v")
+    whole.add_speeds(u, v)
+    whole.add_kdes(x.diff() - u, y.diff() - v)
+    whole.add_holonomic_constraints(x**2 + y**2 - a**2)
+    whole.form_eoms(me.LagrangesMethod)
+    for derived in (False, True):
+        system = System.from_sympy(whole, parameters={a: 1}, derived=derived, initial={x: 0.6, x.diff(): 0.8})
+        assert system.constraints == ["position_1"]
+        # x = 0.6 is on the circle with y = 0.8 or -0.8, and y' is such that the velocity is along it.
+        start = system.compile().start
+        np.testing.assert_allclose(start[0] ** 2 + start[1] ** 2, 1, atol=1e-12)
+        np.testing.assert_allclose(start[0] * start[2] + start[1] * start[3], 0, atol=1e-12)
+
+
+def test_a_statement_goes_on_in_its_own_symbols() -> None:
+    # A coordinate and a parameter of one name: the parameter is called otherwise in the model.
+    x, y = me.dynamicsymbols("x y")
+    s, k = sp.symbols("x k")
+    with pytest.warns(ModelWarning, match="x is called `x_2`"):
+        system = System.from_sympy(x.diff() ** 2 / 2 + y.diff() ** 2 / 2 - k * x**2 / 2 - s * y**2 / 2, [x, y], parameters={s: 5, k: 1}, initial={x: 7})
+    assert system.with_initial({y: s}).compile().start[1] == 5
+    assert system.simulate(initial={y: 2 * s, x.diff(): 3}, t_end=1)["y"][0] == 10
+    assert system.with_values(k=2 * s).compile().rhs(0.0, [1.0, 0.0, 0.0, 0.0])[2] == -10
+    assert system.compile(k=s + 1).parameters == {"x_2": 5.0}
+    la = sp.Symbol("lambda")
+    with pytest.warns(ModelWarning):
+        system = System.from_sympy(x.diff() ** 2 / 2 - la * x**2 / 2 - k * x, [x], parameters={la: 2, k: 1})
+    assert system.with_values(**{"lambda": 3}).parameters["x_lambda"] == system.with_values(x_lambda=3).parameters["x_lambda"] == "3"
+    assert system.with_values(k=la * 2).compile().rhs(0.0, [0.0, 0.0])[1] == -4
+
+
+@pytest.mark.parametrize("name", ["None", "True", "False"])
+def test_names_of_constants_of_python_are_names(name: str) -> None:
+    q, k = me.dynamicsymbols(name), sp.Symbol("k")
+    with pytest.warns(ModelWarning, match=f"called `x_{name}`"):
+        system = System.from_sympy(q.diff() ** 2 / 2 - k * q**2 / 2, [q], parameters={k: 2})
+    (equation,) = system.derive("routh").to_sympy()["routh"]["equations of motion"]
+    assert equation == sp.Eq(q.diff(t, 2) + k * q, 0)
+    assert list(system.to_opty().states)[0] == q
+
+
+@pytest.mark.parametrize("own", [None, [1], sp.Matrix([X]), X > 0, object()])
+def test_a_lagrangian_is_an_expression(own: Any) -> None:
+    with pytest.raises(TypeError, match="the Lagrangian: an expression of SymPy is needed, not "):
+        System.from_sympy(own, [X])
+
+
+def test_one_coordinate_and_one_equation_need_no_list() -> None:
+    assert System.from_sympy(X.diff() ** 2 / 2, X).coordinates == ["x"]
+    y = me.dynamicsymbols("y")
+    system = System("s", coordinates=["x", "y"], kinetic=(X.diff() ** 2 + y.diff() ** 2) / 2, constraints=sp.Eq(X.diff(), y))
+    # x' = y: x'' = y' along each motion.
+    rates = system.compile().rhs(0.0, [1.0, 2.0, 2.0, 3.0])
+    assert system.constraints == ["constraint_1"] and rates[2] == pytest.approx(3.0)

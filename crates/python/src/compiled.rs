@@ -1,6 +1,6 @@
 //! Equations of motion as functions over NumPy arrays.
 
-use crate::address::Door;
+use crate::address::{Data, Door};
 use crate::problem;
 use crate::program::{Program, Ready};
 use crate::texts::Pairs;
@@ -21,6 +21,7 @@ use numpy::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::type_object::PyTypeInfo;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -291,6 +292,7 @@ impl Compiled {
             parameters,
             ready: Mutex::new(vec![ready]),
             door: OnceLock::new(),
+            data: PyOnceLock::new(),
             origin: self.origin.clone(),
             what,
         };
@@ -320,7 +322,9 @@ pub(crate) struct Function {
     /// Storage that no thread uses at present.
     ready: Mutex<Vec<Ready>>,
     /// How other programs call it, once one was asked for.
-    door: OnceLock<Door>,
+    door: OnceLock<Arc<Door>>,
+    /// What they hand over.
+    data: PyOnceLock<Py<PyArray1<f64>>>,
     origin: Arc<Origin>,
     what: usize,
 }
@@ -416,9 +420,9 @@ impl Function {
     }
 
     /// How other programs call this function.
-    fn door(&self) -> &Door {
+    fn door(&self) -> &Arc<Door> {
         self.door
-            .get_or_init(|| Door::new(self.program.clone(), &self.parameters))
+            .get_or_init(|| Arc::new(Door::new(self.program.clone(), &self.parameters)))
     }
 
     /// What is no vector of doubles: sequences, other numbers, batches.
@@ -460,7 +464,11 @@ impl Function {
         };
         let whole: Vec<usize> = shape.iter().chain(&self.program.shape).copied().collect();
         let target = match out {
-            None => PyArrayDyn::<f64>::zeros(py, whole.clone(), false),
+            // By NumPy's own function, which says that there is no memory.
+            None => {
+                let zeros = numpy.call_method1("zeros", (&whole,))?;
+                zeros.cast::<PyArrayDyn<f64>>()?.clone()
+            }
             Some(out) => {
                 let out = array(&numpy, out)?;
                 let out = out
@@ -630,11 +638,14 @@ impl Function {
         self.door().address()
     }
 
-    /// What such a caller hands over as `data`: which function is meant, then the parameters in their order, which may be changed.
-    /// It serves as long as this object lives.
+    /// What such a caller hands over as `data`: which function is meant, then the parameters in their order. It is one array, in which the parameters
+    /// may be changed: for all calls by the address that hand it over, and not for calls of this object. It serves as long as it lives itself; by a
+    /// copy of it the values are not a number once it and this object are gone.
     #[getter]
-    fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.door().data(&self.parameters))
+    fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let made = || Ok(Data::array(py, self.door().clone(), &self.parameters)?.unbind());
+        let found: PyResult<&Py<PyArray1<f64>>> = self.data.get_or_try_init(py, made);
+        Ok(found?.bind(py).clone())
     }
 
     /// The function at `address` as `ctypes` has it.
