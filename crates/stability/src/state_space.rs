@@ -3,11 +3,16 @@
 use crate::expansion::Expansion;
 use crate::linearization::Linearization;
 use crate::multiplicity::product;
+use crate::real_values::corners;
 use crate::steady::{closed, echelon};
 use chetaev_mechanics::redundancy::Reactions;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::matrix::{determinant, inverse};
+use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// Bits with which it is seen whether a number has a value.
+const BITS: usize = 128;
 
 /// Larger systems have no transfer functions in closed form.
 const LARGEST: usize = 10;
@@ -34,6 +39,14 @@ pub struct StateSpace {
 /// Why there is no such form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StateSpaceError {
+    /// An output that has no derivative at the motion.
+    #[error(
+        "the output `{name}` has no derivative at the motion, so that it has no linear form there"
+    )]
+    NotSmooth {
+        /// The output.
+        name: String,
+    },
     /// An output contains a multiplier that the motion does not determine.
     #[error("the multiplier `{multiplier}` in an output is not determined: constraints that follow from each other share their reactions")]
     Undetermined {
@@ -243,6 +256,10 @@ impl Expansion<'_> {
         let row = self.at(&self.derivatives(own));
         let mut row = self.reduced(&self.reduction(), &row);
         let mut by = self.at(&g.gradient(own, inputs));
+        let entries = [row.clone(), by.clone(), by_rates.clone()].concat();
+        if !self.has_slopes(own, &entries) {
+            return Err(StateSpaceError::NotSmooth { name: name.into() });
+        }
         let first = space.states.len() - by_rates.len();
         for (at, &weight) in by_rates.iter().enumerate() {
             for (sums, parts) in [(&mut row, &space.a), (&mut by, &space.b)] {
@@ -252,6 +269,20 @@ impl Expansion<'_> {
             }
         }
         Ok((row, by))
+    }
+}
+
+impl Expansion<'_> {
+    /// Whether an output has no corner at the motion, and its slopes there are defined.
+    fn has_slopes(&self, output: Expr, slopes: &[Expr]) -> bool {
+        let g = self.graph();
+        let corners = corners(g, &[output]).into_iter().map(|(_, inside)| inside);
+        let inside = self.at(&corners.collect::<Vec<_>>());
+        let precision = Precision::new(BITS);
+        let has_value = |&e: &Expr| {
+            !g.symbols_in(&[e]).is_empty() || g.enclose(&[e], &precision, &|_| None).is_ok()
+        };
+        !inside.iter().any(|&e| g.is_zero(e)) && slopes.iter().all(has_value)
     }
 }
 

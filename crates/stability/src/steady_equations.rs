@@ -1,6 +1,7 @@
 //! What vanishes along a steady motion, with the unknowns, and what must not vanish so that it says so.
 
 use crate::charts::is_singular_at;
+use crate::left_out::vanish_nowhere;
 use crate::problem::LinearizationError;
 use crate::real_values::corners;
 use crate::reduction::{without, ClosedSystem, OperatingPoint, Speeds};
@@ -122,7 +123,8 @@ impl<'a> Equations<'a> {
         })
     }
 
-    /// Whether a minor of the gradients of the constraints, or the sum of the squares of all, is known to vanish nowhere.
+    /// Whether a minor of the gradients of the constraints, or the sum of the squares of all, is known to vanish nowhere, or all vanish together at
+    /// no state.
     pub(crate) fn has_full_rank(&self, terms: &MotionTerms, selection: &Selection) -> bool {
         let (g, n) = (&self.system.graph, self.system.n());
         let rows = selection.rows.iter();
@@ -141,7 +143,9 @@ impl<'a> Equations<'a> {
         let squares: Vec<Expr> = minors.iter().map(|&e| g.powi(e, 2)).collect();
         let sum = closed(g, g.add(&squares));
         let is_nonzero = |&e: &Expr| known_sign(g, e, &Assumptions::new()).is_nonzero();
-        rows.is_empty() || minors.iter().chain([&sum]).any(is_nonzero)
+        rows.is_empty()
+            || minors.iter().chain([&sum]).any(is_nonzero)
+            || vanish_nowhere(self.system, &minors, &self.values)
     }
 
     /// Whether the mass matrix is singular along a motion.

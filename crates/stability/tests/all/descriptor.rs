@@ -218,3 +218,31 @@ y = 0
     );
     assert_eq!(numbers(&all.space.d), [[0.0], [1.0], [1.0]]);
 }
+
+/// What has no slope at the motion has no linear form: a pole, the foot of a root, a corner.
+#[test]
+fn outputs_without_a_slope_are_refused() {
+    let case = Case::new(
+        "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - 1/2 x^2\"\n[steady.o]\nx = 0\n",
+    );
+    let about = Expansion::new(
+        &case.system,
+        &case.prepared.terms,
+        &case.prepared.selection,
+        &case.system.steady[0],
+        &case.values(""),
+    )
+    .unwrap();
+    let of = |text: &str| about.state_space(&about.linear(), &[(text.to_owned(), case.read(text))]);
+    for text in ["1/x", "sqrt(x)", "abs(x)", "log(x^2)"] {
+        let said = of(text)
+            .err()
+            .map(|own| own.to_string())
+            .unwrap_or_default();
+        assert!(
+            said.contains("has no derivative at the motion"),
+            "{text}: {said}"
+        );
+    }
+    assert!(of("sqrt(1 + x)").is_ok());
+}

@@ -465,6 +465,9 @@ fn rest_where_the_equations_are_not_defined_is_not_denied() {
         let found = said(potential, "");
         assert_eq!(found, "proved: there is no state of rest", "{potential}");
     }
+    // Off the circle nothing is a state, and on it the gradient (x, y) does not vanish.
+    let circle = said("y", "c = \"x^2 + y^2 = 1\"");
+    assert!(circle.starts_with("proved: 2 states of rest"), "{circle}");
     // y' = x' x: the gradient (x, −1) vanishes nowhere.
     let slope = said("1/2 (x^2 + y^2)", "c = \"y' = x x'\"");
     assert!(slope.starts_with("proved"), "{slope}");

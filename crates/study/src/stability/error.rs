@@ -68,6 +68,12 @@ pub enum StabilityError {
         /// Those that exist.
         known: Vec<String>,
     },
+    /// Two ranges of one parameter.
+    #[error("`{name}` is named twice: a map has two parameters, as in v=0:10,m=1:2")]
+    SameParameter {
+        /// The parameter.
+        name: String,
+    },
     /// A range that is none.
     #[error("`{text}` is no range: write NAME=FROM:TO with FROM below TO, as in v=0:10")]
     Range {

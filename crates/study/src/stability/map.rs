@@ -137,6 +137,10 @@ impl Asked {
             .map(|own| range(model, own))
             .collect::<Result<_, _>>()?;
         let ranges: [Range; 2] = all.try_into().map_err(|_| wrong())?;
+        if ranges[0].symbol == ranges[1].symbol {
+            let name = ranges[0].name.clone();
+            return Err(StabilityError::SameParameter { name });
+        }
         let mut system = System::from_model(model)?;
         let prepared = start::prepared(model, &system)?;
         let (terms, selection) = (&prepared.terms, &prepared.selection);

@@ -1,9 +1,35 @@
-//! Where the functions that a model states have no value: states there are none of the system, so that nothing is left out where they are.
+//! Whether something is left out where equations are not defined: not where the functions that a model states have no value, as there are no states
+//! of the system, and not where no constraint is satisfied.
 
 use crate::steady::{at_point, closed};
 use chetaev_mechanics::System;
+use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
 use chetaev_symbolic::factors::irreducible_factors;
+use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+
+/// Whether functions vanish together at no real state that satisfies the constraints: each part of the common zeros of all contains an equation
+/// without real zeros.
+pub(crate) fn vanish_nowhere(system: &System, functions: &[Expr], values: &[(Expr, Expr)]) -> bool {
+    let g = &system.graph;
+    let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
+    let constraints = system.constraints.iter().filter(|own| own.order <= 1);
+    let constraints: Vec<Expr> = constraints.map(|own| own.stated).collect();
+    let all = [functions.to_vec(), at_point(g, &constraints, &[values])].concat();
+    let is_empty = |part: &Zeros| {
+        let mut own = part.equations.iter();
+        own.any(|(e, _)| known_sign(g, closed(g, *e), &Assumptions::new()).is_nonzero())
+    };
+    common_zeros(g, &all, &symbols, BUDGET).is_ok_and(|parts| parts.iter().all(is_empty))
+}
+
+/// It is asked of sets that were found within little work.
+const BUDGET: Budget = Budget {
+    work: 5_000_000,
+    ..Budget::PROOF
+};
 
 /// Whether L, a force or a constraint has no value where a function of the state vanishes.
 pub(crate) fn is_pole(system: &System, e: Expr, values: &[(Expr, Expr)]) -> bool {
