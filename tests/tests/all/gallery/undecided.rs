@@ -22,6 +22,38 @@ pub(super) const UNDECIDED: &[(&str, &str, &str)] = &[
         "equilibrium.states",
         "contain the time explicitly",
     ),
+    // Where Euler's angles are no coordinates, where the gradients of constraints depend on each other, or where a constraint has none, the system
+    // may rest all the same.
+    (
+        "appell-hamel/model.toml",
+        "steady.motions",
+        "nothing is said where",
+    ),
+    (
+        "appell-hamel/to-rest.toml",
+        "steady.motions",
+        "nothing is said where",
+    ),
+    (
+        "chaplygin-sphere/model.toml",
+        "equilibrium.states",
+        "nothing is said where sin(theta) vanishes",
+    ),
+    (
+        "snakeboard/model.toml",
+        "equilibrium.states",
+        "nothing is said where cos(phi) vanishes",
+    ),
+    (
+        "snakeboard/model.toml",
+        "steady.motions",
+        "nothing is said where cos(phi) vanishes",
+    ),
+    (
+        "trailer/model.toml",
+        "equilibrium.states",
+        "nothing is said of states at which the gradients of the constraints depend on each other",
+    ),
     // At rest Appell's constraint and that of constant speed have no gradient; masses that change are no state of rest; what is too large for a
     // quarter of a second is left to `chetaev steady`.
     (
