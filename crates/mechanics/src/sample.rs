@@ -262,7 +262,8 @@ fn free_point(
             .chain(&terms.jets)
             .flat_map(|c| [c.q, c.v]),
     );
-    // A frame may contain the time or parameters that nothing else contains.
+    // A finite constraint may contain a parameter that its derivative does not, and a frame the time or parameters that nothing else contains.
+    roots.extend(system.constraints.iter().map(|own| own.stated));
     roots.extend(system.quasi_velocities.iter().map(|quasi| quasi.definition));
     if let Some(frame) = &system.frame {
         roots.extend(frame.fields.concat());

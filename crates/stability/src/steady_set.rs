@@ -7,6 +7,7 @@
 
 use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, other_charts, union};
+use crate::left_out::vanish_nowhere;
 use crate::reduction::Speeds;
 use crate::steady::closed;
 pub use crate::steady_equations::Sought;
@@ -85,7 +86,10 @@ fn all_with(
         };
         in_chart(system, terms, chart, asked)
     };
+    // What is no state that the constraints allow is not left out.
+    let is_state = |e: &Expr| !vanish_nowhere(system, &[*e], values);
     let mut set = in_chart(selection, Speeds::Suitable)?;
+    set.excluded.retain(is_state);
     for chart in other_charts(selection, choices(system.n(), selection.rows.len())) {
         if set.excluded.is_empty() {
             break;
@@ -93,6 +97,7 @@ fn all_with(
         let other = in_chart(&chart, Speeds::Independent);
         if let Some(other) = other.ok().filter(|other| other.ignorable == set.ignorable) {
             union(system, &mut set, &other);
+            set.excluded.retain(is_state);
         }
     }
     sort(&mut set.found);

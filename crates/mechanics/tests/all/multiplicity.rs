@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
+use chetaev_mechanics::characteristics::select;
 use chetaev_mechanics::multiplicity::Multiplicity;
 use chetaev_mechanics::{MotionTerms, Prover, System};
 use chetaev_model::load;
@@ -252,4 +253,13 @@ fn simple_zeros_are_left_alone() {
     for constraints in all {
         assert_eq!(found(&system(constraints)), None, "{constraints:?}");
     }
+}
+
+/// The length of a rod stands in no derivative: states that satisfy the constraints are looked at all the same, where z = 0 leaves z (1 + y²) nothing
+/// to add.
+#[test]
+fn a_parameter_of_positions_alone_has_a_value() {
+    let system = system(&["x^2 + y^2 = a^2", "z = 0", "z + z y^2 = 0"]);
+    let chosen = select(&system, &MotionTerms::new(&system)).unwrap();
+    assert_eq!(chosen.rows.len(), 2, "{chosen:?}");
 }

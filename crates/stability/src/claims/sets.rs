@@ -1,7 +1,7 @@
 //! All states of rest, and all steady motions, of a system.
 
 use super::stated::refused;
-use crate::left_out::{is_pole, vanish_nowhere};
+use crate::left_out::is_pole;
 use crate::problem::LinearizationError;
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_set::{all_of, Sought};
@@ -10,7 +10,7 @@ use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::System;
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Graph, Verdict};
 
 /// Seconds of work for a set.
 const SECONDS: f64 = 0.25;
@@ -79,10 +79,9 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
             let g = &system.graph;
             let said = listed(g, &set, sought);
             // States of the system at which its equations are not defined may be at rest all the same.
-            let is_no_state = |&e: &Expr| {
-                is_pole(system, e, &values) || vanish_nowhere(system, &[e], &values)
-            };
-            let is_left_out = !set.has_full_rank || !set.excluded.iter().all(is_no_state);
+            let mut excluded = set.excluded.iter();
+            let is_left_out =
+                !set.has_full_rank || !excluded.all(|&e| is_pole(system, e, &values));
             if is_left_out {
                 let clauses = std::iter::once(said).chain(set.left_out(g));
                 return Verdict::undecided(clauses.collect::<Vec<_>>().join("; "));
