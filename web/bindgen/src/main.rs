@@ -12,6 +12,7 @@ fn main() -> ExitCode {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(module).out_name("chetaev");
     bindgen.remove_name_section(true).remove_producers_section(true);
+    bindgen.typescript(true);
     let made = bindgen.web(true).and_then(|own| own.generate(folder));
     match made {
         Ok(()) => ExitCode::SUCCESS,
