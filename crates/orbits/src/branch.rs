@@ -203,7 +203,7 @@ pub fn solution(
         let size = change.norm();
         let is_at_end = is_done(size, last, x.norm());
         if is_at_end && is_solved(residual, &matrix, x.norm()) {
-            let family = equations.family(&own.by_unknowns, &scale);
+            let family = family_of(equations, (&x, p), &scale, &own.by_unknowns)?;
             equations.accepted(&unscaled, p)?;
             let spectrum = equations.spectrum(&unscaled, p, family)?;
             let point = Point {
@@ -294,6 +294,76 @@ pub fn follow(
 
 /// How far beside a start its family is looked at, in parts of the range.
 const ASIDE: f64 = 1e-3;
+
+/// How far from a solution another one of its family is looked for, in parts of the size of the unknowns.
+const MEMBER: f64 = 1e-2;
+/// Steps to it.
+const STEPS_TO_MEMBER: usize = 40;
+
+/// The dimension of the family of solutions at the same p: the nullity at another solution, at a distance. Where there is none the solution is
+/// isolated, and a zero eigenvalue is one of its own.
+fn family_of(
+    equations: &mut dyn Equations,
+    (x, p): (&DVector<f64>, f64),
+    scale: &[f64],
+    by_unknowns: &DMatrix<f64>,
+) -> Result<usize, OrbitError> {
+    let most = equations.family(by_unknowns, scale);
+    if most == 0 {
+        return Ok(0);
+    }
+    let directions = kernel(&scaled(by_unknowns, scale), most).ok_or(OrbitError::NoEigenvalues)?;
+    let distance = MEMBER * (1.0 + x.norm());
+    let mut found = 0;
+    for direction in directions.column_iter() {
+        for sign in [1.0, -1.0] {
+            let guess = x + direction * (sign * distance);
+            let other = at_distance(equations, (x, guess), p, (scale, distance));
+            found = found.max(other.unwrap_or(0).min(most));
+        }
+        if found == most {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// The nullity at a solution on the sphere about another one, by damped steps from a guess; nothing where none is reached.
+fn at_distance(
+    equations: &mut dyn Equations,
+    (centre, guess): (&DVector<f64>, DVector<f64>),
+    p: f64,
+    (scale, distance): (&[f64], f64),
+) -> Option<usize> {
+    let mut x = guess;
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS_TO_MEMBER {
+        let own = equations.evaluate(&unscaled(&x, scale), p).ok()?;
+        let offset = &x - centre;
+        let rows = own.residual.len();
+        let residual = own.residual.amax();
+        let matrix = scaled(&own.by_unknowns, scale);
+        let mut right = (-own.residual).resize_vertically(rows + 1, 0.0);
+        right[rows] = (distance * distance - offset.norm_squared()) / (2.0 * distance);
+        let mut whole = matrix.clone().resize_vertically(rows + 1, 0.0);
+        whole
+            .row_mut(rows)
+            .copy_from(&(offset.transpose() / distance));
+        let change = least_squares(&whole, &right, f64::EPSILON)?;
+        let size = change.norm();
+        if !size.is_finite() || size > distance {
+            return None;
+        }
+        if is_done(size, last, x.norm()) {
+            let is_member = right[rows].abs() < 1e-3 * distance
+                && residual <= ROUNDING * matrix.norm() * (1.0 + x.norm());
+            return is_member.then(|| equations.family(&own.by_unknowns, scale));
+        }
+        x += change;
+        last = size;
+    }
+    None
+}
 
 /// A solution near a guess from which a curve can begin, with the dimension of the family at general values of the parameter.
 ///

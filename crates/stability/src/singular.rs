@@ -6,7 +6,8 @@
 
 use nalgebra::{ComplexField, DMatrix, SymmetricEigen};
 
-/// `m = u diag(s) v*` with square u and v and s descending, for a matrix filled up with zeros to a square. What is rounding of the largest s is 0.
+/// `m = u diag(s) v*` with square u and v and s descending, for a matrix filled up with zeros to a square; the vectors of what was filled up come
+/// last, each by itself. What is rounding of the largest s is 0.
 #[derive(Clone, Debug)]
 pub struct Singular<T: ComplexField<RealField = f64>> {
     /// u, unitary.
@@ -30,17 +31,24 @@ pub fn singular<T: ComplexField<RealField = f64>>(m: &DMatrix<T>) -> Option<Sing
     }
     let unit = m.camax();
     let unit = if unit.is_normal() { unit } else { 1.0 };
-    let square = m.clone().resize(n, n, T::zero()).unscale(unit);
-    let mut both = DMatrix::zeros(2 * n, 2 * n);
-    both.view_mut((0, n), (n, n)).copy_from(&square);
-    both.view_mut((n, 0), (n, n)).copy_from(&square.adjoint());
+    let (rows, columns) = m.shape();
+    let whole = m.clone().unscale(unit);
+    let mut both = DMatrix::zeros(rows + columns, rows + columns);
+    both.view_mut((0, rows), (rows, columns)).copy_from(&whole);
+    both.view_mut((rows, 0), (columns, rows))
+        .copy_from(&whole.adjoint());
     let found = SymmetricEigen::try_new(both, f64::EPSILON, STEPS * (n + 1))?;
-    let mut order: Vec<usize> = (0..2 * n).collect();
+    let mut order: Vec<usize> = (0..rows + columns).collect();
     order.sort_by(|&a, &b| found.eigenvalues[b].total_cmp(&found.eigenvalues[a]));
     let largest = order.first().map_or(0.0, |&at| found.eigenvalues[at]);
     let least = ROUNDED * n as f64 * largest;
     let positive = |at: &&usize| found.eigenvalues[**at] > least;
-    let order: Vec<usize> = order.iter().take(n).filter(positive).copied().collect();
+    let order: Vec<usize> = order
+        .iter()
+        .take(rows.min(columns))
+        .filter(positive)
+        .copied()
+        .collect();
     let mut values: Vec<f64> = order
         .iter()
         .map(|&at| found.eigenvalues[at] * unit)
@@ -48,10 +56,17 @@ pub fn singular<T: ComplexField<RealField = f64>>(m: &DMatrix<T>) -> Option<Sing
     values.resize(n, 0.0);
     let vectors = found.eigenvectors.select_columns(&order);
     Some(Singular {
-        left: completed(&vectors.rows(0, n).into_owned()),
-        right: completed(&vectors.rows(n, n).into_owned()),
+        left: filled(&completed(&vectors.rows(0, rows).into_owned()), n),
+        right: filled(&completed(&vectors.rows(rows, columns).into_owned()), n),
         values,
     })
+}
+
+/// A unitary matrix with the vectors of the rows or columns that were filled up behind it.
+fn filled<T: ComplexField<RealField = f64>>(own: &DMatrix<T>, n: usize) -> DMatrix<T> {
+    let mut found = DMatrix::identity(n, n);
+    found.view_mut((0, 0), own.shape()).copy_from(own);
+    found
 }
 
 /// The smallest singular value in parts of the largest, 0 where rows depend on each other, or columns where these are fewer; 0 for no matrix of
@@ -139,5 +154,29 @@ mod tests {
             let phase = m.map(|x| Complex::new(0.0, 3.0 * x).exp() * x);
             assert!(error(&phase) < 1e-14, "{phase} {}", error(&phase));
         }
+    }
+
+    /// A kernel of columns is one of columns alone, however many rows there are beside.
+    #[test]
+    fn what_was_filled_up_stays_apart() {
+        let m = DMatrix::from_row_slice(
+            5,
+            3,
+            &[
+                1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+            ],
+        );
+        let Some(found) = singular(&m) else {
+            panic!("{m}");
+        };
+        for column in 1..3 {
+            let own = found.right.column(column);
+            assert!(
+                (own.rows(0, 3).norm() - 1.0).abs() < 1e-15,
+                "{}",
+                found.right
+            );
+        }
+        assert!(error(&m) < 1e-14);
     }
 }

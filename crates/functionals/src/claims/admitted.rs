@@ -154,8 +154,12 @@ impl Admitted<'_> {
             return None;
         }
         let piece = equation.on.as_deref().and_then(|on| of.piece(on));
-        if piece.is_some_and(|piece| residuals.iter().all(|&e| self.is_given(piece, e))) {
-            return None;
+        if piece.is_some_and(|piece| residuals.iter().all(|&e| self.is_given(piece, e)))
+            && !others.iter().any(|(own, _)| own.on == equation.on)
+        {
+            return Some(Verdict::undecided(
+                "a value that is given without being stated was not compared",
+            ));
         }
         let groups = others
             .iter()
@@ -280,31 +284,37 @@ impl Admitted<'_> {
     /// Whether an equation that another functional imposes on a piece says what is given.
     fn is_imposed_on(&self, piece: &Piece, given: (usize, bool), other: &Functional) -> bool {
         let mut all = other.with_role(Role::Imposed);
-        all.any(|own| own.on.as_deref() == Some(&piece.name) && self.says(&own.residuals, given))
+        all.any(|own| {
+            own.on.as_deref() == Some(&piece.name) && self.says(piece, &own.residuals, given)
+        })
     }
 
     /// Whether an equation that is imposed here says what is given.
     fn is_imposed_here(&self, piece: &Piece, given: (usize, bool)) -> bool {
         let mut all = self.imposed().into_iter();
-        all.any(|(own, es)| own.on.as_deref() == Some(&piece.name) && self.says(&es, given))
+        all.any(|(own, es)| own.on.as_deref() == Some(&piece.name) && self.says(piece, &es, given))
     }
 
-    /// Whether a component minus data is among expressions.
-    fn says(&self, es: &[Expr], (component, is_slope): (usize, bool)) -> bool {
+    /// Whether a component, or its slope across the piece, minus data is among expressions.
+    fn says(&self, piece: &Piece, es: &[Expr], (component, is_slope): (usize, bool)) -> bool {
         let space = &*self.functional.space;
         let is_varied = |jet: &Jet| space.component_at(jet.component).is_varied;
-        !is_slope
-            && es.iter().any(|&e| {
-                let jets = space.jets_in(&[e]);
-                let jets: Vec<&Jet> = jets.iter().filter(|jet| is_varied(jet)).collect();
-                match jets[..] {
-                    [jet] => {
-                        let is_own = jet.component == component && jet.by.is_empty();
-                        is_own && space.graph.as_number(space.partial(e, jet)).is_some()
-                    }
-                    _ => false,
+        let by = match (is_slope, &piece.side) {
+            (false, _) => Vec::new(),
+            (true, Side::Flat { axis, .. }) => vec![*axis],
+            (true, Side::Curved) => return false,
+        };
+        es.iter().any(|&e| {
+            let jets = space.jets_in(&[e]);
+            let jets: Vec<&Jet> = jets.iter().filter(|jet| is_varied(jet)).collect();
+            match jets[..] {
+                [jet] => {
+                    let is_own = jet.component == component && jet.by == by;
+                    is_own && space.graph.as_number(space.partial(e, jet)).is_some()
                 }
-            })
+                _ => false,
+            }
+        })
     }
 }
 

@@ -69,7 +69,7 @@ impl Claim for Degeneration {
                     stands: values,
                     is_descent: false,
                 };
-                comparison.decided(&|e| put_in(functional, values, e))
+                comparison.decided(&|_, e| put_in(functional, values, e))
             }
             None => Verdict::undecided("there is no such degeneration").into(),
         }
@@ -97,9 +97,9 @@ pub(super) struct Comparison<'f> {
 }
 
 impl Comparison<'_> {
-    /// Compares all densities, those of the first changed by `change`. They have to agree for all fields that the other functional
+    /// Compares all densities, those of the first changed by `change`, which is told the piece. They have to agree for all fields that the other functional
     /// admits: where what it imposes holds. What it yields is no help: with that a functional would be equal to many.
-    pub(super) fn decided(&self, change: &dyn Fn(Expr) -> Expr) -> Finding {
+    pub(super) fn decided(&self, change: &dyn Fn(Option<&str>, Expr) -> Expr) -> Finding {
         let (functional, other) = (self.functional, self.other);
         if let Some(verdict) = other_body(functional, other) {
             return verdict.into();
@@ -126,7 +126,7 @@ impl Comparison<'_> {
         }
         for (on, own, wanted) in places {
             let wanted = instance((functional, self.values), other, wanted);
-            let difference = space.unified(g.sub(change(own), wanted));
+            let difference = space.unified(g.sub(change(on, own), wanted));
             let place =
                 on.map_or_else(|| "in the interior".to_owned(), |name| format!("on {name}"));
             match self.place(on, difference) {

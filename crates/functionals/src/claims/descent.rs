@@ -94,10 +94,18 @@ pub(super) fn descended(
         .into();
     }
     let stands = eliminated(above, &fields, &solved);
-    let everywhere: Vec<Group> = groups.into_iter().map(|(_, g)| g).collect();
-    let on_boundary = Solved::new(space).preferring(&fields).with(&everywhere);
-    let how = format!("imposing {} on {},", labels(imposed), above.name);
-    let density = above.density;
+    // What holds on one piece says nothing of the others.
+    let on_piece = |piece: &str| {
+        let here = groups
+            .iter()
+            .filter(|(on, _)| on.as_deref().is_none_or(|on| on == piece));
+        let here: Vec<Group> = here.map(|(_, group)| group.clone()).collect();
+        Solved::new(space).preferring(&fields).with(&here)
+    };
+    let how = match imposed {
+        [] => format!("{} as it stands:", above.name),
+        imposed => format!("imposing {} on {},", labels(imposed), above.name),
+    };
     let comparison = Comparison {
         functional: above,
         other: functional,
@@ -107,12 +115,9 @@ pub(super) fn descended(
         stands: &[stands],
         is_descent: true,
     };
-    comparison.decided(&|e: Expr| {
-        if e == density {
-            solved.normal(e)
-        } else {
-            on_boundary.normal(e)
-        }
+    comparison.decided(&|on: Option<&str>, e: Expr| match on {
+        None => solved.normal(e),
+        Some(piece) => on_piece(piece).normal(e),
     })
 }
 

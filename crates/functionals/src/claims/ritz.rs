@@ -147,7 +147,7 @@ fn verdict(
             residual: largest,
             seed: None,
             why_no_proof: format!(
-                "the solution is no polynomial; relative errors at the points: {}",
+                "no polynomial of these degrees is the solution; relative errors at the points: {}",
                 told.join(", ")
             ),
         }),

@@ -222,10 +222,12 @@ impl Solved<'_> {
     fn blocks(&self, equations: &[Expr]) -> Vec<Vec<Jet>> {
         let mut blocks: BTreeMap<(String, Vec<usize>), Vec<Jet>> = BTreeMap::new();
         for jet in self.space.jets_in(equations) {
-            let tensor = self.space.component_at(jet.component).tensor;
-            if tensor == CURVATURE {
+            let component = self.space.component_at(jet.component);
+            // Data of some variables alone say something of the others by their derivatives, which are zero and would be lost.
+            if component.tensor == CURVATURE || !component.constant_along.is_empty() {
                 continue;
             }
+            let tensor = component.tensor;
             blocks
                 .entry((tensor, jet.by.clone()))
                 .or_default()

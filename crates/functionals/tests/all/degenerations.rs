@@ -171,10 +171,7 @@ fn what_is_given_belongs_to_the_functional() {
     ];
     let (word, detail, _) = verdict("pp", id, &free);
     assert_eq!(word, "refuted", "{detail}");
-    assert!(
-        detail.contains("is given in pp-small, and not in pp"),
-        "{detail}"
-    );
+    assert!(detail.contains("(5) is imposed in pp-small"), "{detail}");
 }
 
 #[test]

@@ -226,3 +226,47 @@ fn what_is_given_of_an_eliminated_field_is_given_below() {
         ),
     );
 }
+
+/// What is imposed at one end says nothing of the other: u = 0 at x = 0, and a pull at x = 1, which is there below too.
+#[test]
+fn what_is_imposed_at_one_end_stays_there() {
+    let above = Text {
+        ends: [FREE, "\"-2 u\""],
+        equations: "h = { equation = \"u = 0\", on = \"x = 0\" }",
+        ..Text::of("1/2 u,x^2 - f u", &["u"])
+    };
+    let below = |pull| Text {
+        imposed: "\"h\"",
+        ends: [FREE, pull],
+        ..above
+    };
+    descends("\"h\"", below("\"-2 u\""), above, ("proved", ""));
+    descends("\"h\"", below("\"0\""), above, ("refuted", "x = 1"));
+}
+
+/// Values that are imposed are compared, and so is a slope.
+#[test]
+fn values_that_are_imposed_belong_to_the_functional() {
+    let at = |value: &'static str| Text {
+        imposed: "\"h\"",
+        ends: ["{ fixed = [\"u\"] }", FREE],
+        equations: value,
+        ..Text::of("1/2 u,x^2 - f u", &["u"])
+    };
+    let (one, two) = (
+        "h = { equation = \"u = 1\", on = \"x = 0\" }",
+        "h = { equation = \"u = 2\", on = \"x = 0\" }",
+    );
+    becomes("", at(one), at(one), ("proved", ""));
+    becomes("", at(two), at(one), ("refuted", "(h) is imposed in"));
+    let beam = |ends, equations, imposed| Text {
+        ends,
+        equations,
+        imposed,
+        ..Text::of("1/2 w,xx^2 - f w", &["w"])
+    };
+    let slope = "h = { equation = \"w,x = 0\", on = \"x = 0\" }";
+    let supported = beam(["{ fixed = [\"w\"] }", FREE], slope, "");
+    let clamped = beam(["{ fixed = [\"w\", \"w,n\"] }", FREE], slope, "\"h\"");
+    descends("\"h\"", clamped, supported, ("proved", ""));
+}

@@ -194,3 +194,23 @@ fn data_may_depend_on_some_variables_alone() {
     let said = told.diagnostics.render(chetaev_model::Style::Plain);
     assert!(said.contains("`z` is no independent variable"), "{said}");
 }
+
+/// A load that is the same at all places is none near one: EI w'' = q (l − x)²/2 follows from it at a free end, and a flux k of x alone has no
+/// derivative along the face x = 1.
+#[test]
+fn data_of_some_variables_alone_are_no_loads_at_one_place() {
+    let word = |text: &str| {
+        let study = studied_text("p4p", text, &[]);
+        crate::table::decided(&study, "functional.euler")
+            .word()
+            .to_owned()
+    };
+    let beam = "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 w,xx^2 - q w\"\nyields = [\"m\"]\n[domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n\
+        [data]\nq = { kind = \"scalar\", of = [] }\n[fields]\nw = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"w\", \"w,n\"] }\n\"x = 1\" = \"0\"\n[equations]\nm = \"w,xx = q/2 (1 - x)^2\"\n";
+    assert_ne!(word(beam), "refuted");
+    let flux = "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 u,i u,i - f u\"\nyields = [\"e\", \"r\", \"s\"]\n[domain]\ncoordinates = [\"x\", \"y\"]\n\
+        intervals = { x = [0, 1], y = [0, 1] }\n[data]\nf = \"scalar\"\nk = { kind = \"scalar\", of = [\"x\"] }\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"u\"] }\n\
+        \"x = 1\" = \"-k u\"\n\"y = 0\" = { fixed = [\"u\"] }\n\"y = 1\" = { fixed = [\"u\"] }\n[equations]\ne = \"u,ii + f = 0\"\n\
+        r = { equation = \"u,x = k\", on = \"x = 1\" }\ns = { equation = \"u,xy = 0\", on = \"x = 1\" }\n";
+    assert_eq!(word(flux), "proved");
+}

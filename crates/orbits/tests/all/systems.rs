@@ -10,7 +10,7 @@ use chetaev_integrate::Output;
 use chetaev_mechanics::{Prepared, System};
 use chetaev_model::load;
 use chetaev_orbits::along::along;
-use chetaev_orbits::branch::{follow, End, Kind, Pace};
+use chetaev_orbits::branch::{follow, solution, End, Kind, Pace};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::mode::{Deviation, LinearMotion};
@@ -870,4 +870,74 @@ V = "1/2 (a - 2 q cos(2 t)) x^2"
         -0.121_765_544_941_082_72,
         2e-12,
     );
+}
+
+/// Two free particles beside an oscillator with the damping c: the family of steady motions has two dimensions, and the oscillator a Hopf point at
+/// c = 0.
+#[test]
+fn families_of_two_dimensions_are_followed() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y", "s"]
+parameters = { c = 0.1 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 y'^2 + 1/2 s'^2"
+V = "s^2"
+[forces]
+s = "-c s'"
+"#,
+        &[
+            ("x", 0.0),
+            ("y", 0.0),
+            ("s", 0.0),
+            ("x'", 1.0),
+            ("y'", 2.0),
+            ("s'", 0.0),
+        ],
+    );
+    let c = flow.graph.intern_symbol("c", 0);
+    let mut equations = Equilibria::new(&flow, Some(c)).unwrap();
+    let start: Vec<f64> = flow
+        .names
+        .iter()
+        .map(|name| match name.as_str() {
+            "x'" => 1.0,
+            "y'" => 2.0,
+            _ => 0.0,
+        })
+        .collect();
+    let found = follow(&mut equations, (&start, 0.1), (-0.3, 0.3), points(300)).unwrap();
+    assert_eq!(found.family, 2);
+    let ends: Vec<f64> = [found.points.first(), found.points.last()]
+        .map(|own| own.unwrap().parameter)
+        .to_vec();
+    assert!(
+        (ends[0] + 0.3).abs() < 1e-9 && (ends[1] - 0.3).abs() < 1e-9,
+        "{ends:?}"
+    );
+    let [hopf] = &found.special[..] else {
+        panic!("{:?}", found.special);
+    };
+    assert!(hopf.point.parameter.abs() < 1e-9, "{hopf:?}");
+}
+
+/// x'' = −x' + f(x) with f(0) = 0: the origin is alone, and its eigenvalue 0, or one that is nearly so, is no zero of a family.
+#[test]
+fn isolated_zeros_belong_to_no_family() {
+    for (force, expected) in [("x^3", 0.0), ("x^2", 0.0), ("1e-9 x", 1e-9)] {
+        let (flow, _) = flow(
+            &format!(
+                "coordinates = [\"x\"]\nparameters = {{ c = 1 }}\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"-c x' + {force}\"\n"
+            ),
+            &[("x", 0.0), ("x'", 0.0)],
+        );
+        let c = flow.graph.intern_symbol("c", 0);
+        let mut equations = Equilibria::new(&flow, Some(c)).unwrap();
+        let (point, family) = solution(&mut equations, &[0.0, 0.0], 1.0).unwrap();
+        assert_eq!(family, 0, "{force}");
+        let values: Vec<f64> = point.spectrum.values.iter().map(|own| own.re).collect();
+        assert_eq!(values.len(), 2, "{force}: {values:?}");
+        assert!((values[0] + 1.0).abs() < 1e-8, "{force}: {values:?}");
+        assert!((values[1] - expected).abs() < 1e-15, "{force}: {values:?}");
+    }
 }

@@ -388,8 +388,10 @@ impl<'f> Comparison<'f> {
         let sides = assumed.list().iter().flat_map(|own| [own.left, own.right]);
         let symbols = space.symbols_in(&sides.collect::<Vec<Expr>>());
         let signed = self.signed();
+        // Data of some variables alone are no load at one place.
+        let is_free = |own: usize| space.component_at(own).constant_along.is_empty();
         found.retain(|datum| match datum {
-            Datum::Component(own) => !signed.contains(own),
+            Datum::Component(own) => !signed.contains(own) && is_free(*own),
             Datum::Parameter(own) => !symbols.contains(own),
         });
         found
