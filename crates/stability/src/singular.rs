@@ -170,7 +170,7 @@ mod tests {
             panic!("{m}");
         };
         for column in 1..3 {
-            let own = found.right.column(column);
+            let own: nalgebra::DVector<f64> = found.right.column(column).into();
             assert!(
                 (own.rows(0, 3).norm() - 1.0).abs() < 1e-15,
                 "{}",
