@@ -80,10 +80,13 @@ impl Followed {
                 );
             }
             n => {
+                // A family of several dimensions is named once.
+                let mut names = trivial.clone();
+                names.dedup();
                 let _ = writeln!(
                     text,
                     "{n} {word}s are {value} by structure: of {}",
-                    trivial.join(", ")
+                    names.join(", ")
                 );
             }
         }
