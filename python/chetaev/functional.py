@@ -15,11 +15,11 @@ from .asked import words
 from .claims import explain, verify
 from .errors import ModelWarning
 from .keywords import in_python
-from .results import Check, Explanation, Json, Result, Shown, Verdict, Verification, part_of, write
+from .results import Check, Explanation, Json, Result, Shown, Typeset, Verdict, Verification, part_of, write
 from .system import Value, _pairs, _Progress, of_gallery, readable
 
 
-class FieldEquation(Result):
+class FieldEquation(Typeset):
     """The coefficient of one variation, which vanishes.
 
     Attributes
@@ -33,23 +33,9 @@ class FieldEquation(Result):
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
-        super().__init__(dict(data), f"{data['of']}: {data['equation']}")
+        super().__init__(dict(data), f"{data['of']}: {data['equation']}", data["latex"])
         self.of: str = data["of"]
         self.text: str = data["equation"]
-        self.latex: str = data["latex"]
-
-    def to_latex(self) -> str:
-        """The equation in LaTeX.
-
-        Returns
-        -------
-        str
-            For mathematics in a document with amsmath.
-        """
-        return self.latex
-
-    def _latex(self) -> str | None:
-        return f"$\\displaystyle {self.latex}$"
 
     def _html(self) -> str:
         return f"<p>{html.escape(self.of)}: {html.escape(self._latex() or '')}</p>"

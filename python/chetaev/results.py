@@ -134,7 +134,37 @@ class Check(Result):
         return written.problems(self.diagnostics, super()._html())
 
 
-class Equation(Result):
+class Typeset(Result):
+    """One equation, which has its LaTeX.
+
+    Attributes
+    ----------
+    latex : str
+        In LaTeX.
+    """
+
+    def __init__(self, data: Json, text: str, latex: str) -> None:
+        super().__init__(data, text)
+        self.latex = latex
+
+    def to_latex(self) -> str:
+        """The equation in LaTeX.
+
+        Returns
+        -------
+        str
+            For mathematics in a document with amsmath.
+        """
+        return self.latex
+
+    def _latex(self) -> str | None:
+        return f"$\\displaystyle {self.latex}$"
+
+    def _html(self) -> str:
+        return f"<p>{html.escape(self._latex() or '')}</p>"
+
+
+class Equation(Typeset):
     """An equation ``left = right``.
 
     Attributes
@@ -149,22 +179,11 @@ class Equation(Result):
     """
 
     def __init__(self, data: Mapping[str, str], place: tuple[Formulation, str, int] | None = None) -> None:
-        super().__init__(dict(data), f"{data['left']} = {data['right']}")
+        super().__init__(dict(data), f"{data['left']} = {data['right']}", data["latex"])
         self.label = data["label"]
         self.left = data["left"]
         self.right = data["right"]
-        self.latex = data["latex"]
         self._place = place
-
-    def to_latex(self) -> str:
-        """The equation in LaTeX.
-
-        Returns
-        -------
-        str
-            For mathematics in a document with amsmath.
-        """
-        return self.latex
 
     def to_sympy(self) -> Any:
         """The equation in SymPy, as :meth:`Derivation.to_sympy` has it.
@@ -178,12 +197,6 @@ class Equation(Result):
             raise ValueError("only the equations of a derivation are written in SymPy")
         formulation, title, number = self._place
         return formulation.to_sympy()[title][number]
-
-    def _latex(self) -> str | None:
-        return f"$\\displaystyle {self.latex}$"
-
-    def _html(self) -> str:
-        return f"<p>{html.escape(self._latex() or '')}</p>"
 
 
 class Formulation(Result):

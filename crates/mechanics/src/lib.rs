@@ -1,7 +1,7 @@
 //! A constrained system, the registry of claims, and the equations of motion that follow.
 //!
 //! - The system: [`system`], [`constraint`], [`particles`], [`bodies`], [`mass`] (masses that vary, thrust), [`order`] (constraints of order m);
-//! - what is derived once: [`terms`] (`W, b, J, g`), [`selection`] (independent constraints and velocities), [`frame`],
+//! - what is derived once: [`terms`] (`W, b, J, g`, and the accelerations with multipliers that they determine), [`selection`] (independent constraints and velocities), [`frame`],
 //!   [`characteristics`], [`curvature`], [`linear`];
 //! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`], and their derivation in [`steps`];
 //! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);

@@ -15,12 +15,10 @@ use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words::quoted;
-use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
+use chetaev_symbolic::common_zeros::{real_common_zeros, Zeros};
 use chetaev_symbolic::polynomial::Budget;
-use chetaev_symbolic::real_factors::zero_set;
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::verdict::Counterexample;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// Constraints with dependent gradients at all states that satisfy them.
@@ -38,7 +36,7 @@ pub struct Multiplicity {
     pub values: Vec<(Expr, Expr)>,
 }
 
-/// Sums of squares within sums of squares are followed so deep.
+/// Rates of conditions that rates demand are followed so deep.
 const DEPTH: usize = 8;
 /// It is asked where a motion cannot begin, and the answer is one sentence: a tenth of a proof's work.
 const BUDGET: Budget = Budget {
@@ -200,11 +198,8 @@ impl<'a> Question<'a> {
     }
 
     fn decide(&self, prover: &Prover) -> Option<Multiplicity> {
-        let (g, known) = (&self.system.graph, assumptions(self.system));
-        let simpler = |&e: &Expr| zero_set(g, e, &self.symbols, &known).unwrap_or_else(|| vec![e]);
-        let functions = self.functions.iter().flat_map(simpler).collect();
         let mut parts = Vec::new();
-        self.complete_parts(functions, self.finite, DEPTH, &mut parts)?;
+        self.complete_parts(&self.functions, self.finite, DEPTH, &mut parts)?;
         let mut rank = 0;
         for part in &parts {
             let manifold = Manifold {
@@ -230,9 +225,10 @@ impl<'a> Question<'a> {
 
     /// The rank that regular constraints have on a part: its codimension among positions, or among velocities over them.
     fn expected(&self, part: &Zeros) -> usize {
-        match self.is_of_positions {
-            true => part.codimension,
-            false => part.codimension - self.positions(part).len(),
+        if self.is_of_positions {
+            part.codimension
+        } else {
+            part.codimension - self.positions(part).len()
         }
     }
 
@@ -275,14 +271,15 @@ impl<'a> Question<'a> {
     /// demands have their rates among the functions.
     fn complete_parts(
         &self,
-        functions: Vec<Expr>,
+        functions: &[Expr],
         stated: usize,
         depth: usize,
         found: &mut Vec<Zeros>,
     ) -> Option<()> {
         let deeper = depth.checked_sub(1)?;
-        let mut parts = Vec::new();
-        self.real_parts(functions, DEPTH, &mut parts)?;
+        let known = assumptions(self.system);
+        let of = (&known, BUDGET);
+        let parts = real_common_zeros(&self.system.graph, functions, &self.symbols, of)?;
         for part in parts {
             let positions = self.positions(&part);
             if self.is_of_positions || positions.len() <= stated {
@@ -291,32 +288,8 @@ impl<'a> Question<'a> {
             }
             let rates = positions.iter().map(|&e| self.system.total_derivative(e));
             let own = part.equations.iter().map(|(e, _)| *e);
-            self.complete_parts(own.chain(rates).collect(), positions.len(), deeper, found)?;
-        }
-        Some(())
-    }
-
-    /// The parts of the common zeros of functions that may have real points; `None` where they are not found.
-    fn real_parts(&self, functions: Vec<Expr>, depth: usize, found: &mut Vec<Zeros>) -> Option<()> {
-        let g = &self.system.graph;
-        let known = assumptions(self.system);
-        let deeper = depth.checked_sub(1)?;
-        for part in common_zeros(g, &functions, &self.symbols, BUDGET).ok()? {
-            let own = || part.equations.iter().map(|(e, _)| *e);
-            if own().any(|e| known_sign(g, e, &known).is_nonzero()) {
-                continue;
-            }
-            let simpler = own()
-                .enumerate()
-                .find_map(|(at, e)| Some((at, zero_set(g, e, &self.symbols, &known)?)));
-            match simpler {
-                None => found.push(part),
-                Some((at, simpler)) => {
-                    let others = own().enumerate().filter(|(other, _)| *other != at);
-                    let all = others.map(|(_, e)| e).chain(simpler).collect();
-                    self.real_parts(all, deeper, found)?;
-                }
-            }
+            let all: Vec<Expr> = own.chain(rates).collect();
+            self.complete_parts(&all, positions.len(), deeper, found)?;
         }
         Some(())
     }

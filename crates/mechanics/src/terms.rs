@@ -4,6 +4,7 @@ use crate::mass;
 use crate::memo::Memo;
 use crate::order::lifting;
 use crate::system::{Coordinate, System};
+use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// `W a - Jᵀ λ = b` for constraints of one order m, and for m = 1 `J a = g` (T5 §5.1 (1)).
@@ -73,6 +74,35 @@ impl MotionTerms {
             jacobian,
             constraint_index,
         }
+    }
+
+    /// The bordered system `W a − Jᵀ λ = b`, `J a = g` solved as one node, with the constraints of `rows`: accelerations, then multipliers of these
+    /// (E. J. Routh, Dynamics of a System of Rigid Bodies, 1905). It needs only that it is regular, not that W is.
+    ///
+    /// # Errors
+    /// [`SolveError`] where it is singular.
+    pub fn solved(
+        &self,
+        system: &System,
+        rows: &[usize],
+    ) -> Result<(Vec<Expr>, Vec<Expr>), SolveError> {
+        let (g, n) = (&system.graph, system.n());
+        let size = n + rows.len();
+        let mut matrix = vec![g.zero(); size * size];
+        let mut right = self.force.clone();
+        for i in 0..n {
+            matrix[i * size..i * size + n].copy_from_slice(&self.mass_matrix[i]);
+        }
+        for (l, &row) in rows.iter().enumerate() {
+            for j in 0..n {
+                matrix[(n + l) * size + j] = self.jacobian[row][j];
+                matrix[j * size + n + l] = g.neg(self.jacobian[row][j]);
+            }
+            right.push(self.constraint_rate[row]);
+        }
+        let mut found = g.solve(&matrix, &right)?;
+        let multipliers = found.split_off(n);
+        Ok((found, multipliers))
     }
 }
 

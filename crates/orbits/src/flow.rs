@@ -195,7 +195,13 @@ impl Flow {
         which: Coordinates,
     ) -> Result<Flow, OrbitError> {
         let (g, n) = (&system.graph, system.n());
-        let accelerations = plain(system, &accelerations(system, terms, selection)?);
+        if terms.order > 1 {
+            return Err(LinearizationError::OrderTooHigh { order: terms.order }.into());
+        }
+        let found = terms
+            .solved(system, &selection.rows)
+            .map_err(|_| OrbitError::Singular)?;
+        let accelerations = plain(system, &found.0);
         let rows = selection.rows.iter();
         let stated = rows.clone();
         let stated = stated.map(|&row| &system.constraints[terms.constraint_index[row]]);
@@ -276,17 +282,26 @@ impl Flow {
         if free.contains(&time) || g.any_contains_any(&slopes, &[time]) {
             return Vec::new();
         }
-        let value = |s: Symbol| {
-            let variable = self.variables.iter().position(|own| *own == s);
-            let variable = variable.map(|i| z[i]);
-            variable.or_else(|| Some(parameters[self.place(s)?]))
-        };
+        let value = self.values_at(z, parameters);
         let rates = g.evaluate_f64(&slopes, &value).unwrap_or_default();
         let rates = rates.into_iter().filter(|own| *own != 0.0);
         let mut found: Vec<f64> = rates.map(|own| TAU / own.abs()).collect();
         found.sort_by(f64::total_cmp);
         found.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * *b);
         found
+    }
+
+    /// The values of variables and parameters at a state, by their symbols.
+    pub(crate) fn values_at<'a>(
+        &'a self,
+        z: &'a [f64],
+        parameters: &'a [f64],
+    ) -> impl Fn(Symbol) -> Option<f64> + 'a {
+        move |s| {
+            let variable = self.variables.iter().position(|own| *own == s);
+            let variable = variable.map(|i| z[i]);
+            variable.or_else(|| Some(parameters[self.place(s)?]))
+        }
     }
 
     /// The place of a parameter.
@@ -319,22 +334,14 @@ impl Flow {
     pub fn slopes(&self, z: &[f64], parameters: &[f64]) -> Option<DMatrix<f64>> {
         let g = &self.graph;
         let entries = g.jacobian(&self.rates, &self.variables).concat();
-        let value = |s: Symbol| {
-            let variable = self.variables.iter().position(|own| *own == s);
-            let variable = variable.map(|i| z[i]);
-            variable.or_else(|| Some(parameters[self.place(s)?]))
-        };
+        let value = self.values_at(z, parameters);
         let found = g.evaluate_f64(&entries, &value).ok()?;
         Some(DMatrix::from_row_slice(self.n(), self.n(), &found))
     }
 
     /// How far a state is from where the equations say nothing, for these values of the parameters.
     pub fn margins(&self, z: &[f64], parameters: &[f64]) -> Margins {
-        let value = |s: Symbol| {
-            let variable = self.variables.iter().position(|own| *own == s);
-            let variable = variable.map(|i| z[i]);
-            variable.or_else(|| Some(parameters[self.place(s)?]))
-        };
+        let value = self.values_at(z, parameters);
         let numbers = |rows: &[Vec<Expr>]| {
             let found = self.graph.evaluate_f64(&rows.concat(), &value);
             let columns = rows.first().map_or(0, Vec::len);
@@ -394,36 +401,6 @@ pub(crate) fn plain(system: &System, es: &[Expr]) -> Vec<Expr> {
     let laws: Vec<(Expr, Expr)> = g.symbols_in(es).into_iter().filter_map(law).collect();
     let es = g.substitute_all(es, &laws);
     es.into_iter().map(|e| system.with_definitions(e)).collect()
-}
-
-/// The accelerations by multipliers, functions of coordinates and velocities.
-fn accelerations(
-    system: &System,
-    terms: &MotionTerms,
-    selection: &Selection,
-) -> Result<Vec<Expr>, OrbitError> {
-    let (g, n) = (&system.graph, system.n());
-    if terms.order > 1 {
-        return Err(LinearizationError::OrderTooHigh { order: terms.order }.into());
-    }
-    let rows = &selection.rows;
-    let of_multipliers = |i: usize| rows.iter().map(move |&row| g.neg(terms.jacobian[row][i]));
-    let of_law = (0..n).flat_map(|i| {
-        terms.mass_matrix[i]
-            .iter()
-            .copied()
-            .chain(of_multipliers(i))
-    });
-    let zeros = || vec![g.zero(); rows.len()];
-    let of_constraints = rows
-        .iter()
-        .flat_map(|&row| [terms.jacobian[row].clone(), zeros()].concat());
-    let matrix: Vec<Expr> = of_law.chain(of_constraints).collect();
-    let right = rows.iter().map(|&row| terms.constraint_rate[row]);
-    let right: Vec<Expr> = terms.force.iter().copied().chain(right).collect();
-    let mut found = g.solve(&matrix, &right).map_err(|_| OrbitError::Singular)?;
-    found.truncate(n);
-    Ok(found)
 }
 
 /// Functions that often are integrals.

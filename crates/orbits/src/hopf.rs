@@ -173,11 +173,7 @@ impl Level {
         let finite = flow.finite.iter().copied();
         let candidates = finite.chain(flow.conserved.iter().map(|own| own.1));
         let value = |es: &[Expr], z: &[f64]| {
-            let value = |s: Symbol| {
-                let place = flow.variables.iter().position(|own| *own == s);
-                let parameter = || flow.place(s).map(|i| parameters[i]);
-                place.map(|i| z[i]).or_else(parameter)
-            };
+            let value = flow.values_at(z, parameters);
             g.evaluate_f64(es, &value).ok()
         };
         let n = flow.n();

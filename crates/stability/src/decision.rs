@@ -344,21 +344,19 @@ fn instead(
     let there = About::new(cx, motion, &values_but(system, None), None);
     let found = there.map(|there| at_values(&there, statement));
     let name = about.graph().symbol_text(symbol);
+    let beyond = format!("nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed");
     match found {
         Ok(Verdict::Proved(proof)) => Verdict::Conditional {
             condition: stated_value(about, symbol),
             proof: Proof::exact(
                 "for the values of the parameters that are stated",
-                format!(
-                    "{}; nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed",
-                    proof.detail
-                ),
+                format!("{}; {beyond}", proof.detail),
             ),
             counterexample: None,
         },
         Ok(Verdict::Refuted(own)) => Verdict::Refuted(Counterexample {
             detail: format!(
-                "{} for {}; nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed",
+                "{} for {}; {beyond}",
                 own.detail,
                 stated_value(about, symbol)
             ),

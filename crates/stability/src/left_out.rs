@@ -1,28 +1,25 @@
 //! Whether something is left out where equations are not defined: not where the functions that a model states have no value, as there are no states
 //! of the system, and not where no constraint is satisfied.
 
+use crate::real_values::conditions;
 use crate::steady::{at_point, closed};
+use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::System;
-use chetaev_symbolic::common_zeros::{common_zeros, Zeros};
+use chetaev_symbolic::common_zeros::real_common_zeros;
 use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 
-/// Whether functions vanish together at no real state that satisfies the constraints: each part of the common zeros of all contains an equation
-/// without real zeros.
+/// Whether functions vanish together at no real state that satisfies the constraints.
 pub(crate) fn vanish_nowhere(system: &System, functions: &[Expr], values: &[(Expr, Expr)]) -> bool {
     let g = &system.graph;
     let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
     let constraints = system.constraints.iter().filter(|own| own.order <= 1);
     let constraints: Vec<Expr> = constraints.map(|own| own.stated).collect();
     let all = [functions.to_vec(), at_point(g, &constraints, &[values])].concat();
-    let is_empty = |part: &Zeros| {
-        let mut own = part.equations.iter();
-        own.any(|(e, _)| known_sign(g, closed(g, *e), &Assumptions::new()).is_nonzero())
-    };
-    common_zeros(g, &all, &symbols, BUDGET).is_ok_and(|parts| parts.iter().all(is_empty))
+    let found = real_common_zeros(g, &all, &symbols, (&Assumptions::new(), BUDGET));
+    found.is_some_and(|parts| parts.is_empty())
 }
 
 /// It is asked of sets that were found within little work.
@@ -42,7 +39,7 @@ pub(crate) fn is_pole(system: &System, e: Expr, values: &[(Expr, Expr)]) -> bool
     })
 }
 
-/// Functions at whose zeros something that is stated has no value: denominators, and what stands under logarithms.
+/// Functions at whose zeros something that is stated has no value.
 fn poles(system: &System, values: &[(Expr, Expr)]) -> Vec<Expr> {
     let g = &system.graph;
     let constraints = system.constraints.iter().map(|own| own.stated);
@@ -51,23 +48,17 @@ fn poles(system: &System, values: &[(Expr, Expr)]) -> Vec<Expr> {
         .chain(constraints)
         .collect();
     let stated = at_point(g, &stated, &[values]);
-    let all = g.reachable(&stated).into_iter();
-    all.filter_map(|e| match g.node(e) {
-        Node::Power { base, exponent } => {
-            let number = g.as_number(*exponent)?;
-            chetaev_symbolic::rational::is_negative(number).then_some(*base)
-        }
+    let conditions = conditions(g, &stated).into_iter();
+    let strict = conditions.filter(|own| own.relation != Relation::LessOrEqual);
+    let tangents = g.reachable(&stated).into_iter();
+    let tangents = tangents.filter_map(|e| match g.node(e) {
         Node::Apply {
             function: Function::Tan,
             arguments,
         } => Some(g.apply(Function::Cos, &[*arguments.first()?])),
-        Node::Apply {
-            function: Function::Log,
-            arguments,
-        } => arguments.first().copied(),
         _ => None,
-    })
-    .collect()
+    });
+    strict.map(|own| own.function).chain(tangents).collect()
 }
 
 fn factors_of(g: &Graph, e: Expr, symbols: &[Symbol]) -> Vec<Expr> {

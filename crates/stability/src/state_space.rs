@@ -177,21 +177,25 @@ impl Expansion<'_> {
         }
     }
 
-    /// λ with `Jᵀλ = W a − Q` for the coordinates whose velocities the constraints determine.
+    /// λ with `Jᵀλ = W a − Q`, of as many equations as there are: `J Jᵀ λ = J (W a − Q)`, which is regular wherever the gradients are independent.
     fn multipliers_of_state(&self) -> Result<Vec<Expr>, SolveError> {
-        let (g, terms, selection) = (self.graph(), self.terms, self.selection);
+        let (g, terms, rows) = (self.graph(), self.terms, &self.selection.rows);
         let accelerations: Vec<Expr> = self.system.coordinates.iter().map(|c| c.a).collect();
-        let right = |&d: &usize| {
-            let inertia = terms.mass_matrix[d].iter().zip(&accelerations);
-            let inertia: Vec<Expr> = inertia.map(|(&w, &a)| g.mul(&[w, a])).collect();
-            g.sub(g.add(&inertia), terms.force[d])
+        let dot = |a: &[Expr], b: &[Expr]| {
+            let products: Vec<Expr> = a.iter().zip(b).map(|(&a, &b)| g.mul(&[a, b])).collect();
+            g.add(&products)
         };
-        let right: Vec<Expr> = selection.dependent.iter().map(right).collect();
-        let row = |&d: &usize| {
-            let rows = selection.rows.iter();
-            rows.map(move |&row| terms.jacobian[row][d])
-        };
-        let matrix: Vec<Expr> = selection.dependent.iter().flat_map(row).collect();
+        let inertia = terms.mass_matrix.iter().map(|row| dot(row, &accelerations));
+        let reactions = inertia.zip(&terms.force).map(|(w, &q)| g.sub(w, q));
+        let reactions: Vec<Expr> = reactions.collect();
+        let gradient = |row: &usize| &terms.jacobian[*row][..];
+        let pairs = rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
+        let matrix = pairs.map(|(a, b)| dot(gradient(a), gradient(b)));
+        let matrix: Vec<Expr> = matrix.collect();
+        let right: Vec<Expr> = rows
+            .iter()
+            .map(|row| dot(gradient(row), &reactions))
+            .collect();
         g.solve(&matrix, &right)
     }
 

@@ -19,10 +19,12 @@ use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};
 use chetaev_model::Model;
 use chetaev_motion::{consistent_state, Binding, NumericError, NumericSystem};
-use chetaev_orbits::branch::{self, Branch, End, Equations, Pace, Point};
+use chetaev_orbits::branch::{Branch, End, Equations, Point};
+use chetaev_orbits::continuation::{self, Pace};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
+use chetaev_orbits::solution::solution;
 use chetaev_orbits::{Flow, OrbitError};
 use chetaev_stability::guess::near;
 use chetaev_stability::problem::LinearizationError;
@@ -332,10 +334,10 @@ fn curve(
     match range {
         Some(range) => {
             let ends = (range.low.to_f64().value(), range.high.to_f64().value());
-            Ok(branch::follow(equations, (start, p), ends, pace)?)
+            Ok(continuation::follow(equations, (start, p), ends, pace)?)
         }
         None => {
-            let (point, family) = branch::solution(equations, start, p)?;
+            let (point, family) = solution(equations, start, p)?;
             Ok(Branch {
                 points: vec![point],
                 special: Vec::new(),

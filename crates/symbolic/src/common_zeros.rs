@@ -5,6 +5,9 @@
 
 use crate::polynomial::normal_form::{normal_forms, Field, Kind, NormalFormError, Options};
 use crate::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
+use crate::real_factors::zero_set;
+use crate::zero::assumptions::Assumptions;
+use crate::zero::known_sign;
 use crate::{Expr, Graph, Node, Symbol};
 
 /// A part of the common zeros.
@@ -31,6 +34,44 @@ pub enum CommonZerosError {
     /// Their elimination is too large.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
+}
+
+/// Simpler functions are put in so often.
+const DEPTH: usize = 8;
+
+/// The parts of the common zeros that may have real points: a sum of squares vanishes where its terms do, and a part with an equation that has no
+/// real zero, by its sign under what is known, has no points. Nothing where they are not found.
+pub fn real_common_zeros(
+    g: &Graph,
+    functions: &[Expr],
+    symbols: &[Symbol],
+    (known, budget): (&Assumptions, Budget),
+) -> Option<Vec<Zeros>> {
+    let simpler = |&e: &Expr| zero_set(g, e, symbols, known).unwrap_or_else(|| vec![e]);
+    let mut open: Vec<(Vec<Expr>, usize)> =
+        vec![(functions.iter().flat_map(simpler).collect(), DEPTH)];
+    let mut found = Vec::new();
+    while let Some((functions, depth)) = open.pop() {
+        let deeper = depth.checked_sub(1)?;
+        for part in common_zeros(g, &functions, symbols, budget).ok()? {
+            let own = || part.equations.iter().map(|(e, _)| *e);
+            if own().any(|e| known_sign(g, e, known).is_nonzero()) {
+                continue;
+            }
+            let simpler = own()
+                .enumerate()
+                .find_map(|(at, e)| Some((at, zero_set(g, e, symbols, known)?)));
+            match simpler {
+                None => found.push(part),
+                Some((at, simpler)) => {
+                    let others = own().enumerate().filter(|(other, _)| *other != at);
+                    let all = others.map(|(_, e)| e).chain(simpler);
+                    open.push((all.collect(), deeper));
+                }
+            }
+        }
+    }
+    Some(found)
 }
 
 /// The common zeros of functions where these are defined; other symbols than the given ones are parameters in general position. Symbols

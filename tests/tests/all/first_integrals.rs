@@ -5,7 +5,10 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::geometry::noether::found::{found, Found};
+mod exponentials;
+mod jumps;
+
+use chetaev::geometry::noether::found::Found;
 use chetaev::mechanics::Context;
 use chetaev::symbolic::{Expr, Function, Verdict};
 use chetaev_tests::searched::{in_context, made_up, rank, within};
@@ -548,40 +551,6 @@ tilt = "theta'"
     });
 }
 
-/// Functions that say nothing of the motion are called trivial, and those that jump are none that keep their value: a point falls
-/// through x = 0 to and fro.
-#[test]
-fn constants_and_functions_that_jump() {
-    let model = made_up(
-        r#"
-name = "bouncing"
-coordinates = ["x", "y"]
-[parameters]
-k = 2
-[lagrangian]
-L = "(x'^2 + y'^2)/2 - abs(x)"
-[integrals]
-side = "sign(x)"
-quotient = "abs(x)/x"
-turns = "atan(x) + atan(1/x)"
-number = "3 k"
-flight = "y'"
-"#,
-    );
-    in_context(&model, |cx| {
-        for name in ["side", "quotient", "turns"] {
-            let finding = cx.finding(&format!("noether.inverse#{name}"));
-            let is_conditional = matches!(finding.verdict, Verdict::Conditional { .. });
-            assert!(is_conditional, "{name}: {:?}", finding.verdict);
-        }
-        let number = cx.finding("noether.inverse#number");
-        assert!(number.verdict.detail().contains("trivial"));
-        let flight = cx.finding("noether.inverse#flight");
-        let detail = flight.verdict.detail();
-        assert!(matches!(flight.verdict, Verdict::Proved(_)) && !detail.contains("trivial"));
-    });
-}
-
 /// A free particle in the five-dimensional Heisenberg group: the reaction vanishes, E = 0 extends the forces, and ∂f/∂x = -y'/2 keeps
 /// its value.
 #[test]
@@ -606,82 +575,6 @@ contact = "z' = (x y' - y x' + u v' - v u')/2"
     });
 }
 
-/// Linear motions: (x ± y) e^(∓t) of x' = y, y' = x; the eigenvalues (-3 ± √5)/2 and the double one -1 of damped springs; the speed
-/// under drag and gravity, m y' + m²g/c, falls as e^(-c t/m).
-#[test]
-fn eigenfunctions_with_exponentials() {
-    let model = |coordinates: &str, lagrangian: &str, rest: &str, integrals: &str| {
-        format!(
-            "name = \"linear\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n{rest}\n[integrals]\n{integrals}\n"
-        )
-    };
-    let space = "(x'^2 + y'^2 + z'^2)/2";
-    contains(
-        &model(
-            "\"x\", \"y\", \"z\"",
-            space,
-            "[constraints]\na = \"x' = y\"\nb = \"y' = x\"\nc = \"z' = x y\"",
-            "a = \"(x + y) exp(-t)\"\nb = \"(x - y) exp(t)\"\nc = \"2 z - x^2\"",
-        ),
-        3,
-    );
-    contains(
-        &model(
-            "\"x\", \"y\"",
-            "(x'^2 + y'^2)/2",
-            "[constraints]\na = \"x' = x + y\"",
-            "a = \"(x + y + y') exp(-t)\"\nb = \"y'\"",
-        ),
-        3,
-    );
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - x^2/2",
-            "[forces]\nx = \"-3 x'\"",
-            "a = \"(2 x' + (3 + sqrt(5)) x) exp((3 - sqrt(5)) t/2)\"\nb = \"(2 x' + (3 - sqrt(5)) x) exp((3 + sqrt(5)) t/2)\"",
-        ),
-        2,
-    );
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - x^2/2",
-            "[forces]\nx = \"-2 x'\"",
-            "a = \"(x' + x) exp(t)\"\nb = \"(x - t (x' + x)) exp(t)\"",
-        ),
-        2,
-    );
-    contains(
-        "name = \"drag\"\ncoordinates = [\"y\"]\nparameters = { m = 2, c = 3, g = 1 }\nlagrangian = \"m y'^2/2 - m g y\"\n[forces]\ny = \"-c y'\"\n[integrals]\na = \"(y' + m g/c) exp(c t/m)\"\n",
-        2,
-    );
-}
-
-/// |x'| = y' keeps y - x while x' > 0 and y + x while x' < 0; x + 2 y on neither side.
-#[test]
-fn integrals_on_one_side_of_a_corner() {
-    let model = made_up(
-        "name = \"corner\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[constraints]\na = \"abs(x') = y'\"\n[integrals]\nforward = \"y - x\"\nbackward = \"y + x\"\nneither = \"x + 2 y\"\n",
-    );
-    in_context(&model, |cx| {
-        for (name, side) in [("forward", "x' > 0"), ("backward", "x' < 0")] {
-            let finding = cx.finding(&format!("noether.inverse#{name}"));
-            let Verdict::Conditional { condition, .. } = &finding.verdict else {
-                panic!("{name}: {}", finding.verdict.detail());
-            };
-            assert!(condition.contains(side), "{name}: {condition}");
-        }
-        let finding = cx.finding("noether.inverse#neither");
-        assert_eq!(
-            finding.verdict.word(),
-            "refuted",
-            "{}",
-            finding.verdict.detail()
-        );
-    });
-}
-
 /// Veselova's system as by hand, in the rates of Euler's angles: the components of the moment of momentum across the direction are
 /// momenta with coefficients that contain 1/sin θ.
 #[test]
@@ -700,118 +593,6 @@ fn veselova_without_quasi_velocities() {
             "name = \"veselova\"\nlagrangian = \"{w1}^2 + 3 {w2}^2/2 + 5 {w3}^2/2\"\n[coordinates]\nphi = {{ unit = \"rad\" }}\ntheta = {{ unit = \"rad\" }}\npsi = {{ unit = \"rad\" }}\n[constraints]\nno_spin = \"phi' + psi' cos(theta) = 0\"\n[integrals]\nacross = \"{across}\"\n"
         ),
         3,
-    );
-}
-
-/// Underdamped and undamped oscillators (by hand): `e^(c t) (x'² + c x x' + k x²)` whatever the sign of c² - 4 k, and the phase; two that
-/// are coupled, by their sum and difference; one with a periodic force; a central force with drag keeps `e^(c t) (x y' - y x')`.
-#[test]
-fn eigenfunctions_that_turn() {
-    let model = |coordinates: &str, lagrangian: &str, rest: &str, integrals: &str| {
-        format!("name = \"turning\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n{rest}\n[integrals]\n{integrals}\n")
-    };
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - 2 x^2",
-            "",
-            "a = \"x' sin(2 t) - 2 x cos(2 t)\"\nb = \"x' cos(2 t) + 2 x sin(2 t)\"",
-        ),
-        2,
-    );
-    // The moment of momentum of two equal damped oscillators decays as exp(-c t), whatever k is.
-    contains(
-        &model(
-            "\"x\", \"y\"",
-            "(x'^2 + y'^2)/2 - k (x^2 + y^2)/2",
-            "parameters = { c = {}, k = {} }\n[forces]\nx = \"-c x'\"\ny = \"-c y'\"",
-            "a = \"(x y' - y x') exp(c t)\"\nb = \"(x'^2 + c x x' + k x^2) exp(c t)\"",
-        ),
-        3,
-    );
-    let damped = "[forces]\nx = \"-c x'\"";
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - k x^2/2",
-            &format!("parameters = [\"c\", \"k\"]\n{damped}"),
-            "a = \"exp(c t) (x'^2 + c x x' + k x^2)\"",
-        ),
-        1,
-    );
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - x^2",
-            "[forces]\nx = \"-2 x'\"",
-            "a = \"exp(2 t) (x'^2 + 2 x x' + 2 x^2)\"\nb = \"exp(t) ((x' + x) cos(t) + x sin(t))\"",
-        ),
-        2,
-    );
-    contains(
-        &model(
-            "\"x\", \"y\"",
-            "(x'^2 + y'^2)/2 - (x^2 + y^2)/2 - (x - y)^2/2",
-            "[forces]\nx = \"-x'/5\"\ny = \"-y'/5\"",
-            "a = \"exp(t/5) ((x' + y')^2 + (x + y) (x' + y')/5 + (x + y)^2)\"\nb = \"exp(t/5) ((x' - y')^2 + (x - y) (x' - y')/5 + 3 (x - y)^2)\"",
-        ),
-        4,
-    );
-    // x'' + x = 3 sin(2 t): x + sin(2 t) is free.
-    contains(
-        &model(
-            "\"x\"",
-            "x'^2/2 - x^2/2 + 3 x sin(2 t)",
-            "",
-            "a = \"(x' + 2 cos(2 t))^2 + (x + sin(2 t))^2\"",
-        ),
-        2,
-    );
-    contains(
-        &model(
-            "\"x\", \"y\"",
-            "(x'^2 + y'^2)/2 - k (x^2 + y^2)^2/2",
-            "parameters = [\"c\", \"k\"]\n[forces]\nx = \"-c x'\"\ny = \"-c y'\"",
-            "a = \"exp(c t) (x y' - y x')\"",
-        ),
-        1,
-    );
-}
-
-/// Drag that grows with v² (by hand): `(k x'² - g) e^(-2 k x)` where it drives, `1/v - k t` in the plane; the isokinetic particle in
-/// a linear field keeps `y' e^(-x²/2c²)`; `1/x' - 1/y'` under x'³ + y'³ + z'³ = 1; the momentum beside a control.
-#[test]
-fn rates_that_vanish_speeds_and_reciprocals() {
-    let model = |coordinates: &str, rest: &str| {
-        format!("name = \"made-up\"\ncoordinates = [{coordinates}]\n{rest}\n")
-    };
-    contains(
-        &model(
-            "\"x\"",
-            "parameters = [\"k\", \"g\"]\nlagrangian = \"x'^2/2 - g x\"\n[forces]\nx = \"k x'^2\"\n[integrals]\na = \"(k x'^2 - g) exp(-2 k x)\"",
-        ),
-        1,
-    );
-    contains(
-        &model(
-            "\"x\", \"y\"",
-            "parameters = [\"k\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[forces]\nx = \"-k x' sqrt(x'^2 + y'^2)\"\ny = \"-k y' sqrt(x'^2 + y'^2)\"\n[integrals]\na = \"1/sqrt(x'^2 + y'^2) - k t\"\nb = \"x'/y'\"",
-        ),
-        3,
-    );
-    contains(
-        &model(
-            "\"x\", \"y\", \"z\"",
-            "parameters = [\"c\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[forces]\nx = \"-x\"\n[constraints]\na = \"x'^2 + y'^2 + z'^2 = c^2\"\n[integrals]\na = \"y' exp(-x^2/(2 c^2))\"\nb = \"y'/z'\"",
-        ),
-        3,
-    );
-    contains(
-        &model(
-            "\"x\"",
-            "lagrangian = \"x'^2/2\"\n[controls]\nu = \"sin(3 t)\"\n[forces]\nx = \"u'\"\n[integrals]\na = \"x' - u\"",
-        ),
-        1,
     );
 }
 
@@ -854,58 +635,6 @@ fn integrals_in_independent_velocities_where_these_are_shorter() {
         let own = shown.iter().find(|e| e.contains("x' y'"));
         assert!(own.is_some_and(|e| !e.contains("z'")), "{shown:?}");
     });
-}
-
-/// (x x' + y y')² + x x' + y y' = 0 has two components, on which points of a search would be mixed: what is kept is said of each by itself,
-/// x² + y² on the first and x y' - y x' (or a function of both) there too.
-#[test]
-fn components_are_searched_one_by_one() {
-    let text = "name = \"branches\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[constraints]\nc = \"(x x' + y y')^2 + x x' + y y' = 0\"\n[initial]\nx = 1\n\"y'\" = 1\n";
-    in_context(&made_up(text), |cx| {
-        let finding = cx.finding("noether.family");
-        let detail = finding.verdict.detail();
-        assert_eq!(finding.verdict.word(), "proved", "{detail}");
-        let components = [
-            "on the component x x' + y y' = 0",
-            "on the component x x' + y y' + 1 = 0",
-        ];
-        assert!(components.iter().all(|c| detail.contains(c)), "{detail}");
-        let g = &cx.system.graph;
-        let shown: Vec<String> = finding.formulas.iter().map(|f| g.text(f.right)).collect();
-        assert!(shown.iter().any(|e| e == "x^2 + y^2"), "{shown:?}");
-        assert!(shown.len() >= 4, "{shown:?}");
-    });
-}
-
-/// z' = sign(y) x' keeps x z' - z x' on either side of y = 0; where y passes through 0 z' jumps, and so does it.
-#[test]
-fn integrals_under_constraints_that_jump() {
-    let text = "name = \"jump\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"z' = sign(y) x'\"\n";
-    in_context(&made_up(text), |cx| {
-        let count = found(cx).as_ref().as_ref().map_or(0, |f| f.integrals.len());
-        assert!(count > 0);
-        for j in 1..=count {
-            let finding = cx.finding(&format!("noether.integral#{j}"));
-            let detail = finding.verdict.detail();
-            assert!(detail.contains("while y keeps its sign"), "{detail}");
-        }
-    });
-}
-
-/// L = (x'² + y'²)/2 + sign(x) x' y: x' + y sign(x) jumps by 2 y where x passes through 0, as x' does not. Dry friction: |x'| + µ t is kept
-/// until the motion stops.
-#[test]
-fn integrals_of_motions_that_jump() {
-    let step = "name = \"step\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 + sign(x) x' y\"\n[integrals]\nenergy = \"(x'^2 + y'^2)/2\"\n";
-    let friction = "name = \"friction\"\ncoordinates = [\"x\"]\nparameters = { mu = 1 }\nassumptions = [\"mu > 0\"]\nlagrangian = \"x'^2/2\"\n[forces]\nx = \"-mu sign(x')\"\n[integrals]\na = \"abs(x') + mu t\"\n";
-    for (text, name, argument) in [(step, "energy", "x"), (friction, "a", "x'")] {
-        in_context(&made_up(text), |cx| {
-            let finding = cx.finding(&format!("noether.inverse#{name}"));
-            let detail = finding.verdict.detail();
-            let expected = format!("while {argument} keeps its sign");
-            assert!(detail.contains(&expected), "{detail}");
-        });
-    }
 }
 
 /// A sphere that rolls and does not spin is Veselova's body with J = I + m r² (Koiller, Ehlers, Rios and Cabral 2005): its moment of
@@ -967,12 +696,4 @@ r2 = "x' sin(th + be) - y' cos(th + be) - l th' cos(be) = 0"
             .iter()
             .all(|i| i.name.as_deref() != Some("the energy")));
     });
-}
-
-/// A bead on a turning rod, as a particle: r'' = w² r although sines and cosines of w t stand in its place, whose rates have the eigenvalues ±iw;
-/// (r' - w r) exp(w t) and the energy of the turning frame are kept.
-#[test]
-fn a_bead_on_a_turning_rod() {
-    let text = "name = \"rod\"\ncoordinates = [\"r\"]\nparameters = {m = 1, w = 1}\n[particles.p]\nmass = \"m\"\nposition = [\"r cos(w t)\", \"r sin(w t)\"]\nforce = [\"0\", \"0\"]\n[integrals]\ndecay = \"(r' - w r) exp(w t)\"\n";
-    contains(text, 2);
 }

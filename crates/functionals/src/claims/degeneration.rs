@@ -1,8 +1,8 @@
 //! `functional.degeneration`: special values turn the functional into another stated one.
 
-use super::admitted::Admitted;
 use super::modulo::{equations, other_body, vanishing_difference, STATED};
 use super::special_values::{instance, put_in, unfit};
+use super::variations::Variations;
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Relation, Role, Special};
 use chetaev_symbolic::verdict::Proof;
@@ -108,12 +108,12 @@ impl Comparison<'_> {
         let g = &space.graph;
         let mut notes = Vec::new();
         let mut all = Verdict::Proved(Proof::exact("", ""));
-        let admitted = Admitted {
+        let own = Variations {
             functional,
             values: self.stands,
             besides: self.besides,
         };
-        if let Some(verdict) = admitted.differs_from(other) {
+        if let Some(verdict) = own.differs_from(other) {
             return verdict.into();
         }
         let mut places = vec![(None, functional.density, other.density)];

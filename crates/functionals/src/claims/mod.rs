@@ -1,7 +1,7 @@
 //! The claims about functionals, one file each, in a registry.
 
 pub mod admission;
-mod admitted;
+
 mod branches;
 mod degeneration;
 mod descent;
@@ -17,6 +17,7 @@ pub(crate) mod ritz;
 mod second_variation;
 mod solution;
 mod special_values;
+mod variations;
 
 use self::admission::Admission;
 use crate::functional::{Functional, Missing, Problem, Relation};

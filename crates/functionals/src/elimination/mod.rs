@@ -27,7 +27,7 @@ pub(crate) use self::consequences::factors_of;
 
 use self::ranking::Ranking;
 use crate::functional::Side;
-use crate::space::{Component, Jet, Space};
+use crate::space::{rest, Component, Jet, Space};
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
@@ -705,14 +705,4 @@ fn missing(wanted: &[usize], own: &[usize]) -> Vec<usize> {
         }
     }
     missing
-}
-
-/// By what one derivative is differentiated to give another.
-fn rest(more: &[usize], less: &[usize]) -> Option<Vec<usize>> {
-    let mut rest = more.to_vec();
-    for axis in less {
-        let at = rest.iter().position(|own| own == axis)?;
-        rest.remove(at);
-    }
-    Some(rest)
 }

@@ -353,12 +353,12 @@ impl Space {
         let jet = self.as_jet(symbol)?;
         let above = |(left, value): &(Expr, Expr)| {
             let of = self.as_jet(g.as_symbol(*left)?)?;
-            let rest = without(&jet.by, &of.by).filter(|_| of.component == jet.component)?;
-            Some((rest, *value))
+            let beyond = rest(&jet.by, &of.by).filter(|_| of.component == jet.component)?;
+            Some((beyond, *value))
         };
         let all = pairs.iter().filter_map(above);
-        let (rest, value) = all.min_by_key(|(rest, _)| rest.len())?;
-        Some(self.totals(value, &rest))
+        let (beyond, value) = all.min_by_key(|(beyond, _)| beyond.len())?;
+        Some(self.totals(value, &beyond))
     }
 
     /// All jets that occur, in arguments of constitutive functions too.
@@ -440,12 +440,12 @@ pub fn pairs(dimensions: usize) -> Vec<(usize, usize)> {
     found
 }
 
-/// Variables without some of them; nothing where these are not among them.
-fn without(all: &[usize], some: &[usize]) -> Option<Vec<usize>> {
-    let mut left = all.to_vec();
-    for by in some {
-        let at = left.iter().position(|own| own == by)?;
-        left.remove(at);
+/// By what one derivative is differentiated to give another; nothing where it does not.
+pub(crate) fn rest(more: &[usize], less: &[usize]) -> Option<Vec<usize>> {
+    let mut rest = more.to_vec();
+    for axis in less {
+        let at = rest.iter().position(|own| own == axis)?;
+        rest.remove(at);
     }
-    Some(left)
+    Some(rest)
 }

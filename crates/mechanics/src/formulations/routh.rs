@@ -116,29 +116,9 @@ fn reactive_objects(basis: &Basis<'_>) -> Vec<NamedExpr> {
         .collect()
 }
 
-/// The bordered system, solved as one node: accelerations, then multipliers of the selected rows.
+/// Accelerations and multipliers of the constraints of a basis.
 pub(crate) fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
-    let (system, terms) = (basis.system, basis.terms);
-    let g = &system.graph;
-    let (n, rows) = (system.n(), &basis.selection.rows);
-    let size = n + rows.len();
-    let mut matrix = vec![g.zero(); size * size];
-    let mut rhs = terms.force.clone();
-    for i in 0..n {
-        for j in 0..n {
-            matrix[i * size + j] = terms.mass_matrix[i][j];
-        }
-    }
-    for (l, &row) in rows.iter().enumerate() {
-        for j in 0..n {
-            matrix[(n + l) * size + j] = terms.jacobian[row][j];
-            matrix[j * size + n + l] = g.neg(terms.jacobian[row][j]);
-        }
-        rhs.push(terms.constraint_rate[row]);
-    }
-    let mut solution = g.solve(&matrix, &rhs)?;
-    let multipliers = solution.split_off(n);
-    Ok((solution, multipliers))
+    Ok(basis.terms.solved(basis.system, &basis.selection.rows)?)
 }
 
 fn stated_equations(basis: &Basis<'_>) -> Vec<Equation> {

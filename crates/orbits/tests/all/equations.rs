@@ -7,9 +7,11 @@
 
 use crate::points;
 use chetaev_integrate::Output;
-use chetaev_orbits::branch::{follow, solution, Equations, Kind, Pace};
+use chetaev_orbits::branch::{Equations, Kind};
+use chetaev_orbits::continuation::{follow, Pace};
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::periodic::{period_guess, Shooting};
+use chetaev_orbits::solution::solution;
 use chetaev_orbits::variational::{Column, Extended, Order, Variational};
 use chetaev_orbits::{Flow, OrbitError};
 use chetaev_symbolic::{Expr, Graph, Symbol};

@@ -8,23 +8,30 @@ use chetaev_stability::expansion::Expansion;
 use chetaev_symbolic::Expr;
 use nalgebra::DMatrix;
 
+fn expansion<'c>(case: &'c Case, motion: &'c SteadyMotion) -> Expansion<'c> {
+    let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);
+    Expansion::new(&case.system, terms, selection, motion, &case.values("")).unwrap()
+}
+
+fn outputs(case: &Case, texts: &[&str]) -> Vec<(String, Expr)> {
+    let of = |&text: &&str| (text.to_owned(), case.read(text));
+    texts.iter().map(of).collect()
+}
+
 fn in_all(
     case: &Case,
     motion: &SteadyMotion,
-    outputs: &[&str],
+    texts: &[&str],
 ) -> Result<Descriptor, DescriptorError> {
-    let outputs: Vec<(String, Expr)> = outputs
-        .iter()
-        .map(|&text| (text.to_owned(), case.read(text)))
-        .collect();
-    let about = Expansion::new(
-        &case.system,
-        &case.prepared.terms,
-        &case.prepared.selection,
-        motion,
-        &case.values(""),
-    );
-    about.unwrap().descriptor(&outputs)
+    expansion(case, motion).descriptor(&outputs(case, texts))
+}
+
+/// C and D of outputs in independent coordinates and speeds.
+fn in_independent(case: &Case, texts: &[&str]) -> [Vec<Vec<f64>>; 2] {
+    let about = expansion(case, &case.system.steady[0]);
+    let space = about.state_space(&about.linear(), &outputs(case, texts));
+    let space = space.unwrap();
+    [&space.c, &space.d].map(|rows| case.numbers(rows, &[]))
 }
 
 /// det(s E − A) at a number.
@@ -190,24 +197,12 @@ y = 0
 "#,
     );
     let texts = ["lambda_c", "x''", "x'' + x"];
-    let outputs: Vec<(String, Expr)> = texts
-        .iter()
-        .map(|&text| (text.to_owned(), case.read(text)))
-        .collect();
-    let about = Expansion::new(
-        &case.system,
-        &case.prepared.terms,
-        &case.prepared.selection,
-        &case.system.steady[0],
-        &case.values(""),
-    )
-    .unwrap();
-    let space = about.state_space(&about.linear(), &outputs).unwrap();
-    let numbers = |rows: &[Vec<Expr>]| case.numbers(rows, &[]);
-    assert_eq!(numbers(&space.c), [[-1.5, 0.0], [-1.5, 0.0], [-0.5, 0.0]]);
-    assert_eq!(numbers(&space.d), [[0.5], [0.5], [0.5]]);
+    let [c, d] = in_independent(&case, &texts);
+    assert_eq!(c, [[-1.5, 0.0], [-1.5, 0.0], [-0.5, 0.0]]);
+    assert_eq!(d, [[0.5], [0.5], [0.5]]);
     // In all variables (x, y, x', y', λ): x'' = −3 x + u − λ.
     let all = in_all(&case, &case.system.steady[0], &texts).unwrap();
+    let numbers = |rows: &[Vec<Expr>]| case.numbers(rows, &[]);
     assert_eq!(
         numbers(&all.space.c),
         [
@@ -219,21 +214,40 @@ y = 0
     assert_eq!(numbers(&all.space.d), [[0.0], [1.0], [1.0]]);
 }
 
+/// The reaction of a hanging pendulum of length 1 in Cartesian coordinates, y'' = −g + u + 2 y λ with y = −1: ∂λ/∂u = 1/2, whichever coordinate
+/// comes first; and that of a sleigh's blade, which depends on no heading: m u w J/(J + m a²).
+#[test]
+fn reactions_are_outputs_in_any_coordinates() {
+    for coordinates in ["\"x\", \"y\"", "\"y\", \"x\""] {
+        let case = Case::new(&format!(
+            "coordinates = [{coordinates}]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\nV = \"9 y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n[controls]\nu = {{}}\n\
+             [forces]\ny = \"u\"\n[steady.hang]\nx = 0\ny = -1\n"
+        ));
+        let [c, d] = in_independent(&case, &["lambda_rod"]);
+        assert_eq!(
+            (c, d),
+            (vec![vec![0.0; 2]], vec![vec![0.5]]),
+            "{coordinates}"
+        );
+    }
+    let sleigh = Case::gallery("chaplygin-sleigh");
+    let [c, _] = in_independent(&sleigh, &["lambda_blade"]);
+    // u = 1, m = 3/2, J = 2/5, a = 1/4.
+    let expected = 0.6 / 0.49375;
+    assert!(
+        c[0][0] == 0.0 && (c[0][1] - expected).abs() < 1e-14,
+        "{c:?}"
+    );
+}
+
 /// What has no slope at the motion has no linear form: a pole, the foot of a root, a corner.
 #[test]
 fn outputs_without_a_slope_are_refused() {
     let case = Case::new(
         "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - 1/2 x^2\"\n[steady.o]\nx = 0\n",
     );
-    let about = Expansion::new(
-        &case.system,
-        &case.prepared.terms,
-        &case.prepared.selection,
-        &case.system.steady[0],
-        &case.values(""),
-    )
-    .unwrap();
-    let of = |text: &str| about.state_space(&about.linear(), &[(text.to_owned(), case.read(text))]);
+    let about = expansion(&case, &case.system.steady[0]);
+    let of = |text: &str| about.state_space(&about.linear(), &outputs(&case, &[text]));
     for text in ["1/x", "sqrt(x)", "abs(x)", "log(x^2)"] {
         let said = of(text)
             .err()

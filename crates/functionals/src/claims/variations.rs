@@ -9,7 +9,7 @@ use chetaev_symbolic::{Expr, Verdict};
 use std::collections::BTreeSet;
 
 /// A functional with special values put in, and with further equations imposed.
-pub(super) struct Admitted<'f> {
+pub(super) struct Variations<'f> {
     /// The functional.
     pub functional: &'f Functional,
     /// The special values.
@@ -21,7 +21,7 @@ pub(super) struct Admitted<'f> {
 /// What is given on a piece: components, and whether their slopes across it.
 type Given = BTreeSet<(usize, bool)>;
 
-impl Admitted<'_> {
+impl Variations<'_> {
     /// Why it has other variations than another functional; nothing where it has the same.
     pub(super) fn differs_from(&self, other: &Functional) -> Option<Verdict> {
         self.data(other)

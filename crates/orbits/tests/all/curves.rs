@@ -1,0 +1,411 @@
+//! Curves of steady motions of mechanical systems, and what happens on them.
+#![allow(
+    clippy::unwrap_used,
+    clippy::excessive_precision,
+    reason = "test code fails where it stands, and has the digits of its sources"
+)]
+
+use crate::common::{flow, is_close};
+use crate::points;
+use chetaev_orbits::branch::{Branch, End, Kind};
+use chetaev_orbits::continuation::{follow, Pace};
+use chetaev_orbits::equilibria::Equilibria;
+use chetaev_orbits::solution::solution;
+use chetaev_orbits::{Flow, OrbitError};
+
+/// The steady motions of a flow from one near a state, over a range of a parameter.
+fn curve(
+    flow: &Flow,
+    parameter: &str,
+    start: (&[f64], f64),
+    range: (f64, f64),
+    pace: Pace,
+) -> Branch {
+    let parameter = flow.graph.intern_symbol(parameter, 0);
+    let mut equations = Equilibria::new(flow, Some(parameter)).unwrap();
+    follow(&mut equations, start, range, pace).unwrap()
+}
+
+/// Watt's governor hunts below ε = 2 α β^(3/2), and the orbits that are born are stable: l₁ < 0 (Sotomayor, Mello and Braga 2007; value by
+/// harmonic balance).
+#[test]
+fn watts_governor() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "s"]
+parameters = { alpha = 0.5, beta = 0.6, eps = 0.6 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 s'^2"
+[forces]
+x = "s'^2 sin(x) cos(x) - sin(x) - eps x'"
+s = "alpha (cos(x) - beta)"
+"#,
+        &[("x", 0.9), ("x'", 0.0), ("s'", 1.3)],
+    );
+    assert_eq!(flow.names, ["x", "x'", "s'"]);
+    let found = curve(
+        &flow,
+        "eps",
+        (&[0.9, 0.0, 1.3], 0.6),
+        (0.1, 1.0),
+        points(300),
+    );
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    let special = &found.special[0];
+    is_close(special.point.parameter, 0.464_758_001_544_890_03, 1e-12);
+    is_close(special.point.unknowns[2], 1.290_994_448_735_805_6, 1e-12);
+    match special.kind {
+        Kind::Hopf {
+            frequency,
+            first_lyapunov,
+        } => {
+            is_close(frequency, 1.032_795_558_988_644_5, 1e-12);
+            is_close(first_lyapunov.unwrap(), -0.081_153_947_931_242_15, 1e-9);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A sleigh runs straight on at any speed: with the mass centre at a distance a from the edge the family has dimension 1, and it is cut. The
+/// eigenvalue that is left is −m a u/(I + m a²), which passes zero at a = 0 (Neimark and Fufaev 1972).
+#[test]
+fn a_sleigh_across_its_family() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y", "phi"]
+parameters = { m = 2, I = 0.5, a = 0.3 }
+[lagrangian]
+T = "1/2 m ((x' - a sin(phi) phi')^2 + (y' + a cos(phi) phi')^2) + 1/2 I phi'^2"
+[constraints]
+edge = "-x' sin(phi) + y' cos(phi) = 0"
+[quasi_velocities]
+u = "x' cos(phi) + y' sin(phi)"
+w = "phi'"
+"#,
+        &[
+            ("x", 0.0),
+            ("y", 0.0),
+            ("phi", 0.0),
+            ("x'", 1.5),
+            ("y'", 0.0),
+            ("phi'", 0.0),
+        ],
+    );
+    assert_eq!(flow.names, ["u", "w"]);
+    let found = curve(&flow, "a", (&[1.5, 0.0], 0.3), (-0.5, 0.5), points(300));
+    assert_eq!(found.family, 1);
+    for own in &found.points {
+        let at = own.parameter;
+        is_close(own.unknowns[0], 1.5, 1e-12);
+        assert_eq!(own.spectrum.trivial, ["the family of steady motions"]);
+        is_close(
+            own.spectrum.values[0].re,
+            -2.0 * at * 1.5 / (0.5 + 2.0 * at * at),
+            1e-10,
+        );
+    }
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
+    is_close(found.special[0].point.parameter, 0.0, 1e-10);
+}
+
+/// A conical pendulum at any speed: of its family of dimension 1 the eigenvalues are 0 and ±i φ' √(1 + 3 cos²θ) (Whittaker 1937, § 55), where
+/// φ'² cos θ = g/l, so that it is nowhere unstable. Velocities that vanish do so to rounding, and the matrices are nearly of lower rank.
+#[test]
+fn a_conical_pendulum_is_stable() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta", "phi"]
+parameters = { g = 9 }
+[lagrangian]
+T = "1/2 (theta'^2 + sin(theta)^2 phi'^2)"
+V = "-g cos(theta)"
+"#,
+        &[("theta", 1.0), ("phi", 0.0), ("theta'", 0.0), ("phi'", 4.0)],
+    );
+    let start = [1.0, 0.0, 4.0];
+    let pace = Pace {
+        step: 0.01,
+        ..points(500)
+    };
+    let found = curve(&flow, "g", (&start, 9.0), (1.0, 20.0), pace);
+    assert_eq!(found.special.len(), 0, "{:?}", found.special);
+    assert!(found.points.len() > 80);
+    for own in &found.points {
+        let place = |name: &str| flow.names.iter().position(|own| own == name).unwrap();
+        let (theta, rate) = (own.unknowns[place("theta")], own.unknowns[place("phi'")]);
+        is_close(rate * rate * theta.cos(), own.parameter, 1e-12);
+        let frequency = rate * (1.0 + 3.0 * theta.cos().powi(2)).sqrt();
+        assert_eq!(own.spectrum.values.len(), 2);
+        for (value, sign) in own.spectrum.values.iter().zip([-1.0, 1.0]) {
+            is_close(value.re, 0.0, 1e-12);
+            is_close(value.im, sign * frequency, 1e-12);
+        }
+    }
+}
+
+/// A charge on a hill in a magnetic field, x'' = B y' + x, y'' = −B x' + y, with the eigenvalues ±√(1 − B²/4) ± i B/2 for |B| < 2: the double shifts of
+/// the QR method go round without end there.
+#[test]
+fn a_charge_on_a_hill_is_followed_to_the_ends() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y"]
+parameters = { p = 1.5 }
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "-1/2 (x^2 + y^2)"
+[forces]
+x = "p y'"
+y = "-p x'"
+"#,
+        &[("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)],
+    );
+    let found = curve(&flow, "p", (&[0.0; 4], 1.5), (-1.0, 1.9), points(500));
+    assert_eq!(found.ends, [End::Range; 2]);
+    for own in &found.points {
+        let half = 0.5 * own.parameter;
+        for value in &own.spectrum.values {
+            is_close(value.re.abs(), (1.0 - half * half).sqrt(), 1e-12);
+            is_close(value.im.abs(), half.abs(), 1e-12);
+        }
+    }
+}
+
+/// Zeros of conservative systems, where λ² passes zero: a spring of stiffness p, a bead on a hoop at W² = g/R, and the fold of x'' = p − x². What
+/// exists at the stated value alone is a branch that crosses, and no family: with V = (p − 1) x²/2 + y²/2, at p = 1 every x is one of rest.
+#[test]
+fn zeros_of_conservative_systems() {
+    let model = |coordinates: &str, value: f64, energy: &str| {
+        format!(
+            "coordinates = [{coordinates}]\nparameters = {{ p = {value} }}\n[lagrangian]\nL = \"{energy}\"\n"
+        )
+    };
+    let rest = [("x", 0.0), ("x'", 0.0)];
+    let spring = model("\"x\"", 2.0, "1/2 x'^2 - 1/2 p x^2");
+    let found = happens(&spring, &rest, (-1.0, 2.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 0.0, 1e-14);
+    let bead = model("\"x\"", 5.0, "1/2 x'^2 + 1/2 p^2 sin(x)^2 + 9 cos(x)");
+    let found = happens(&bead, &rest, (0.0, 5.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 3.0, 1e-14);
+    let fold = model("\"x\"", 4.0, "1/2 x'^2 - 1/3 x^3 + p x");
+    let found = happens(&fold, &[("x", 2.0), ("x'", 0.0)], (-1.0, 4.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::Fold);
+    is_close(found[0].1, 0.0, 1e-14);
+    let state = [("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)];
+    let plane = "1/2 (x'^2 + y'^2) - 1/2 (p - 1) x^2 - 1/2 y^2";
+    let (flow, _) = flow(&model("\"x\", \"y\"", 1.0, plane), &state);
+    let found = curve(&flow, "p", (&[0.0; 4], 1.0), (0.0, 3.0), points(300));
+    assert_eq!(found.family, 0);
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
+    is_close(found.special[0].point.parameter, 1.0, 1e-14);
+}
+
+/// x'' = −1 − x² has no state of rest: where the force is smallest, at x = 0, none is found.
+#[test]
+fn the_smallest_residual_is_no_solution() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - x - x^3/3\"\n",
+        &[("x", 0.3), ("x'", 0.0)],
+    );
+    let mut equations = Equilibria::new(&flow, None).unwrap();
+    let found = solution(&mut equations, &[0.3, 0.0], 0.0);
+    assert!(
+        matches!(found, Err(OrbitError::NotConverged { .. })),
+        "{found:?}"
+    );
+}
+
+/// Ziegler's column with equal damping d = 1/10 of both joints flutters from P = 2057/1400 on: Hurwitz's last determinant vanishes there.
+#[test]
+fn a_column_flutters_to_rounding() {
+    let text = r#"
+coordinates = ["a", "b"]
+parameters = { p = 1, d = 0.1 }
+[lagrangian]
+T = "1/2 (3 a'^2 + b'^2 + 2 a' b' cos(a - b))"
+V = "1/2 (a^2 + (b - a)^2)"
+[forces]
+a = "p sin(a - b) - d (2 a' - b')"
+b = "-d (b' - a')"
+"#;
+    let found = happens(
+        text,
+        &[("a", 0.0), ("b", 0.0), ("a'", 0.0), ("b'", 0.0)],
+        (0.0, 3.0),
+    );
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(matches!(found[0].0, Kind::Hopf { .. }), "{found:?}");
+    is_close(found[0].1, 2057.0 / 1400.0, 1e-14);
+}
+
+/// A bead on a turning hoop: at ω² = g/R the lowest position gives its stability to two others (a pitchfork); the branch through the side
+/// position turns at the same point.
+#[test]
+fn a_bead_on_a_hoop() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { R = 0.5, g = 9.81, W = 6 }
+[lagrangian]
+T = "1/2 R^2 theta'^2 + 1/2 R^2 W^2 sin(theta)^2"
+V = "-g R cos(theta)"
+[forces]
+theta = "-0.1 theta'"
+"#,
+        &[("theta", 1.0), ("theta'", 0.0)],
+    );
+    let lowest = curve(&flow, "W", (&[0.0, 0.0], 3.0), (2.0, 8.0), points(300));
+    assert_eq!(lowest.special.len(), 1, "{:?}", lowest.special);
+    assert_eq!(lowest.special[0].kind, Kind::BranchPoint);
+    let critical = (9.81_f64 / 0.5).sqrt();
+    is_close(lowest.special[0].point.parameter, critical, 1e-12);
+    let side = curve(&flow, "W", (&[1.0, 0.0], 6.0), (2.0, 8.0), points(300));
+    let turn = side.special.iter().find(|own| own.kind == Kind::Pitchfork);
+    is_close(turn.unwrap().point.parameter, critical, 1e-12);
+    for own in &side.points {
+        let expected = 9.81 / (0.5 * own.parameter * own.parameter);
+        is_close(own.unknowns[0].cos(), expected, 1e-10);
+    }
+}
+
+/// What happens along the motions from a state at the end of a range of p, with the values of p.
+fn happens(text: &str, state: &[(&str, f64)], range: (f64, f64)) -> Vec<(Kind, f64)> {
+    let (flow, _) = flow(text, state);
+    let start: Vec<f64> = state.iter().map(|own| own.1).collect();
+    let found = curve(&flow, "p", (&start, range.1), range, points(300));
+    let special = found.special.into_iter();
+    special.map(|own| (own.kind, own.point.parameter)).collect()
+}
+
+/// Two oscillators of frequencies 1 and √2 with the damping −p, and two of stiffness p: both pairs, and both zeros, pass at p = 0, where no
+/// product of them changes its sign.
+#[test]
+fn what_passes_together_is_seen() {
+    let model = |energy: &str, force: [&str; 2]| {
+        let [x, y] = force;
+        format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ p = 0.1 }}
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "{energy}"
+[forces]
+x = "{x}"
+y = "{y}"
+"#
+        )
+    };
+    let state = [("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)];
+    let pairs = model("1/2 x^2 + y^2", ["p x' - x^2 x'", "p y' - y^2 y'"]);
+    let mut frequencies = Vec::new();
+    for (kind, at) in happens(&pairs, &state, (-0.31, 0.4)) {
+        is_close(at, 0.0, 1e-6);
+        let Kind::Hopf { frequency, .. } = kind else {
+            panic!("{kind:?}");
+        };
+        frequencies.push(frequency);
+    }
+    frequencies.sort_by(f64::total_cmp);
+    assert_eq!(frequencies.len(), 2);
+    is_close(frequencies[0], 1.0, 1e-9);
+    is_close(frequencies[1], 2.0_f64.sqrt(), 1e-9);
+    let zeros = model("1/2 p x^2 + 1/2 p y^2", ["-x'", "-y'"]);
+    let found = happens(&zeros, &state, (-0.31, 0.4));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::BranchPoint);
+    is_close(found[0].1, 0.0, 1e-6);
+}
+
+/// x'' = −x' − x/(p − 0.3): the eigenvalues go to infinity at p = 0.3, and none passes zero.
+#[test]
+fn an_eigenvalue_goes_to_infinity() {
+    let text = r#"
+coordinates = ["x"]
+parameters = { p = 0.1 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 x^2/(p - 0.3)"
+[forces]
+x = "-x'"
+"#;
+    let found = happens(text, &[("x", 0.0), ("x'", 0.0)], (-0.31, 0.9));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, Kind::Infinity);
+    is_close(found[0].1, 0.3, 1e-6);
+}
+
+/// Two free particles beside an oscillator with the damping c: the family of steady motions has two dimensions, and the oscillator a Hopf point at
+/// c = 0.
+#[test]
+fn families_of_two_dimensions_are_followed() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y", "s"]
+parameters = { c = 0.1 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 y'^2 + 1/2 s'^2"
+V = "s^2"
+[forces]
+s = "-c s'"
+"#,
+        &[
+            ("x", 0.0),
+            ("y", 0.0),
+            ("s", 0.0),
+            ("x'", 1.0),
+            ("y'", 2.0),
+            ("s'", 0.0),
+        ],
+    );
+    let start: Vec<f64> = flow
+        .names
+        .iter()
+        .map(|name| match name.as_str() {
+            "x'" => 1.0,
+            "y'" => 2.0,
+            _ => 0.0,
+        })
+        .collect();
+    let found = curve(&flow, "c", (&start, 0.1), (-0.3, 0.3), points(300));
+    assert_eq!(found.family, 2);
+    let ends: Vec<f64> = [found.points.first(), found.points.last()]
+        .map(|own| own.unwrap().parameter)
+        .to_vec();
+    assert!(
+        (ends[0] + 0.3).abs() < 1e-9 && (ends[1] - 0.3).abs() < 1e-9,
+        "{ends:?}"
+    );
+    let [hopf] = &found.special[..] else {
+        panic!("{:?}", found.special);
+    };
+    assert!(hopf.point.parameter.abs() < 1e-9, "{hopf:?}");
+}
+
+/// x'' = −x' + f(x) with f(0) = 0: the origin is alone, and its eigenvalue 0, or one that is nearly so, is no zero of a family.
+#[test]
+fn isolated_zeros_belong_to_no_family() {
+    for (force, expected) in [("x^3", 0.0), ("x^2", 0.0), ("1e-9 x", 1e-9)] {
+        let (flow, _) = flow(
+            &format!(
+                "coordinates = [\"x\"]\nparameters = {{ c = 1 }}\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"-c x' + {force}\"\n"
+            ),
+            &[("x", 0.0), ("x'", 0.0)],
+        );
+        let c = flow.graph.intern_symbol("c", 0);
+        let mut equations = Equilibria::new(&flow, Some(c)).unwrap();
+        let (point, family) = solution(&mut equations, &[0.0, 0.0], 1.0).unwrap();
+        assert_eq!(family, 0, "{force}");
+        let values: Vec<f64> = point.spectrum.values.iter().map(|own| own.re).collect();
+        assert_eq!(values.len(), 2, "{force}: {values:?}");
+        assert!((values[0] + 1.0).abs() < 1e-8, "{force}: {values:?}");
+        assert!((values[1] - expected).abs() < 1e-15, "{force}: {values:?}");
+    }
+}

@@ -1,0 +1,174 @@
+//! Periodic orbits of mechanical systems and their multipliers.
+#![allow(
+    clippy::unwrap_used,
+    clippy::excessive_precision,
+    reason = "test code fails where it stands, and has the digits of its sources"
+)]
+
+use crate::common::{flow, is_close, system};
+use crate::points;
+use chetaev_orbits::branch::Kind;
+use chetaev_orbits::continuation::follow;
+use chetaev_orbits::flow::Coordinates;
+use chetaev_orbits::periodic::Shooting;
+use chetaev_orbits::solution::solution;
+use chetaev_orbits::{Flow, OrbitError};
+
+/// Kapitza's pendulum stands upright above Ω = 99.260834704…, where the leading order says √(2 g l)/a = 99.0454 (−4 g/(l Ω²) = a₀(2 a/l), McLachlan
+/// 1947): a multiplier passes 1 there.
+#[test]
+fn kapitza() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { l = 0.2, a = 0.02, g = 9.81, Omega = 90 }
+[lagrangian]
+T = "1/2 l^2 theta'^2 + l a Omega sin(Omega t) sin(theta) theta'"
+V = "g l cos(theta)"
+"#,
+        &[("theta", 0.0), ("theta'", 0.0)],
+    );
+    assert_eq!(flow.is_turning, [true, false]);
+    let omega = flow.graph.intern_symbol("Omega", 0);
+    let period = read("2 pi/Omega");
+    let mut orbits = Shooting::new(&flow, Some(omega), Some(period)).unwrap();
+    for (at, trace) in [
+        (90.0, 2.043_533_501_022_299),
+        (100.0, 1.997_047_941_829_981_9),
+        (200.0, 1.850_751_692_323_900_4),
+    ] {
+        is_close(
+            orbits.monodromy(&[0.0, 0.0], at).unwrap().trace(),
+            trace,
+            1e-12,
+        );
+    }
+    let found = follow(&mut orbits, (&[0.0, 0.0], 90.0), (90.0, 110.0), points(500)).unwrap();
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    assert_eq!(found.special[0].kind, Kind::BranchPoint);
+    is_close(
+        found.special[0].point.parameter,
+        99.260_834_704_054_84,
+        1e-10,
+    );
+}
+
+/// A force cos(1.2 t) repeats after 2π/1.2 and its multiples: what closes after another time is no periodic orbit.
+#[test]
+fn a_period_is_one_of_the_force() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["x"]
+parameters = { w = 1.2, F = 0.3 }
+[lagrangian]
+L = "1/2 x'^2 - 1/2 x^2 - 1/4 x^4"
+[forces]
+x = "-0.1 x' + F cos(w t)"
+"#,
+        &[("x", 0.0), ("x'", 0.0)],
+    );
+    let orbit = |period: &str| {
+        let mut orbits = Shooting::new(&flow, None, Some(read(period))).unwrap();
+        solution(&mut orbits, &[0.0, 0.0], 0.0)
+    };
+    let Err(OrbitError::NotRepeated { own, .. }) = orbit("3") else {
+        panic!("an orbit of another period than the force");
+    };
+    assert_eq!(own.len(), 1);
+    is_close(own[0], 2.0 * std::f64::consts::PI / 1.2, 1e-15);
+    assert!(orbit("2 pi/w").is_ok());
+    assert!(orbit("4 pi/w").is_ok());
+}
+
+/// A pendulum on a large orbit: its period is 4 K(sin(α/2)) √(l/g), and both multipliers are 1, of the energy and along the orbit.
+#[test]
+fn a_pendulum() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { l = 1, g = 1 }
+[lagrangian]
+T = "1/2 l^2 theta'^2"
+V = "-g l cos(theta)"
+"#,
+        &[("theta", 2.0), ("theta'", 0.0)],
+    );
+    let mut orbits = Shooting::new(&flow, None, None).unwrap();
+    let guess = chetaev_orbits::periodic::period_guess(&flow, &[2.0, 0.0], 30.0).unwrap();
+    let start = orbits.unknowns(&[2.0, 0.0], guess);
+    let (orbit, family) = solution(&mut orbits, &start, 0.0).unwrap();
+    assert_eq!(family, 1, "{guess} {orbit:?}");
+    assert_eq!(
+        orbit.spectrum.trivial,
+        ["the direction along the orbit", "the energy"]
+    );
+    assert!(orbit.spectrum.values.is_empty());
+    // The amplitude by the energy; K by the arithmetic-geometric mean (Gauss).
+    let energy = 0.5 * orbit.unknowns[1].powi(2) - orbit.unknowns[0].cos();
+    let k = ((1.0 + energy) / 2.0).sqrt();
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    is_close(orbit.unknowns[2], 2.0 * std::f64::consts::PI / a, 1e-12);
+}
+
+/// A pendulum in Cartesian coordinates and all velocities: its period is 4 K(sin(α/2)) √(l/g), and of its four multipliers, all 1, two are of the
+/// constraint and its rate, one of the energy, which is constant on these alone, and one along the orbit.
+#[test]
+fn an_orbit_in_all_velocities() {
+    let (system, prepared) = system(
+        "coordinates = [\"x\", \"y\"]\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n",
+    );
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let flow =
+        Flow::in_all_velocities(&system, terms, selection, Coordinates::NotIgnorable).unwrap();
+    assert_eq!(flow.names, ["x", "y", "x'", "y'"]);
+    let (sin, cos) = 1.0_f64.sin_cos();
+    let mut orbits = Shooting::new(&flow, None, None).unwrap();
+    let start = orbits.unknowns(&[sin, -cos, 0.0, 0.0], 6.7);
+    let (orbit, _) = solution(&mut orbits, &start, 0.0).unwrap();
+    let own = &orbit.unknowns;
+    let energy = 0.5 * (own[2] * own[2] + own[3] * own[3]) + own[1];
+    let k = ((1.0 + energy) / 2.0).sqrt();
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    is_close(own[4], 2.0 * std::f64::consts::PI / a, 1e-10);
+    assert!(orbit.spectrum.values.is_empty(), "{:?}", orbit.spectrum);
+    let finite = "a finite constraint";
+    assert_eq!(
+        orbit.spectrum.trivial,
+        [
+            "the direction along the orbit",
+            finite,
+            finite,
+            "the energy"
+        ]
+    );
+}
+
+/// The same boundary of Mathieu's equation from a model.
+#[test]
+fn mathieu_from_a_model() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["x"]
+parameters = { a = 0.3, q = 0.5 }
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 (a - 2 q cos(2 t)) x^2"
+"#,
+        &[("x", 0.0), ("x'", 0.0)],
+    );
+    let a = flow.graph.intern_symbol("a", 0);
+    let mut orbits =
+        chetaev_orbits::periodic::Shooting::new(&flow, Some(a), Some(read("pi"))).unwrap();
+    let found = follow(&mut orbits, (&[0.0, 0.0], 0.3), (-1.0, 5.0), points(500)).unwrap();
+    is_close(
+        found.special[0].point.parameter,
+        -0.121_765_544_941_082_72,
+        2e-12,
+    );
+}
