@@ -1148,7 +1148,8 @@ class Trajectory(Result):
         """
         if self._system is None:
             raise ValueError("sensitivities are computed of what System.simulate gave")
-        return self._system.sensitivity(by, self.t)
+        project = self._again is not None and self._again[2]["project"]
+        return self._system.sensitivity(by, self.t, project=project)
 
     @property
     def finished(self) -> bool:

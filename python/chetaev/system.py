@@ -1161,7 +1161,13 @@ class System(Shown):
         return LinearAlong(json.loads(data), text)
 
     def sensitivity(
-        self, by: str | Iterable[str], times: Iterable[float], *, second: bool = False, progress: bool = False
+        self,
+        by: str | Iterable[str],
+        times: Iterable[float],
+        *,
+        second: bool = False,
+        project: bool = False,
+        progress: bool = False,
     ) -> Columns:
         """Derivatives of coordinates and velocities by parameters and given initial values, by the variational equations.
 
@@ -1173,6 +1179,9 @@ class System(Shown):
             Where they are wanted, ascending from the start.
         second : bool
             The second derivatives too.
+        project : bool
+            Whether initial data that contradict the constraints are moved to the nearest state that is admissible, as by ``simulate``; the
+            derivatives are then those of the nearest state.
         progress : bool
             Whether a progress bar is shown, where tqdm is installed.
 
@@ -1186,7 +1195,7 @@ class System(Shown):
         given = [by] if isinstance(by, str) or not isinstance(by, Iterable) else list(by)
         names = ",".join(self._name_of(own) for own in given)
         with _Progress(progress) as tell:
-            columns, rows = self._anew().sensitivity(names, second, [float(t) for t in times], tell)
+            columns, rows = self._anew().sensitivity(names, second, [float(t) for t in times], bool(project), tell)
         table = np.array(rows, dtype=np.float64).reshape(-1, len(columns))
         return Columns({name: table[:, place].copy() for place, name in enumerate(columns)})
 

@@ -63,6 +63,20 @@ pub trait Equations {
         nullity(&scaled(by_unknowns, scale), FAMILY)
     }
 
+    /// Whether between two solutions next to each other the curve passes a solution from which on it runs back, as where an orbit shrinks to
+    /// a steady motion and is followed half a period later.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where there is no value.
+    fn runs_back(
+        &mut self,
+        before: (&[f64], f64),
+        after: (&[f64], f64),
+    ) -> Result<bool, OrbitError> {
+        let _ = (before, after);
+        Ok(false)
+    }
+
     /// Told after each point that was accepted.
     fn accepted(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
         let _ = (x, p);
@@ -139,6 +153,10 @@ pub enum End {
     Points,
     /// No next point was found.
     Lost,
+    /// At the start again: the curve is closed.
+    Closed,
+    /// Where orbits shrink to a steady motion.
+    Steady,
 }
 
 /// Singular values below this part of the largest belong to a family.

@@ -61,6 +61,11 @@ pub fn follow(
         }
         all.extend(own);
         special.extend(happened);
+        if *end == End::Closed {
+            all.insert(0, start.clone());
+            ends = [End::Closed; 2];
+            break;
+        }
     }
     Ok(Branch {
         points: all,
@@ -70,6 +75,8 @@ pub fn follow(
     })
 }
 
+/// Points that are nearer to each other, in parts of their size, are one.
+const SAME: f64 = 1e-8;
 /// A test that falls to this part of what it was vanishes to rounding.
 const SPECIAL: f64 = 1e-9;
 /// A step that would end where something happens is made so much shorter.
@@ -223,6 +230,8 @@ impl Walk<'_> {
         if (at.tangent[m] > 0.0) != is_upwards {
             at.tangent.neg_mut();
         }
+        let first = at.clone();
+        let mut runs_back = false;
         let mut before: Option<Stand> = None;
         let mut happened = Vec::new();
         let mut length = FIRST.min(pace.step);
@@ -233,13 +242,23 @@ impl Walk<'_> {
             if is_at_end(&at.y) && (at.tangent[m] > 0.0) == (at.y[m] >= 1.0) {
                 break End::Range;
             }
-            let Some((next, steps)) = self.step(&at, length) else {
+            let found = self.step(&at, length);
+            let is_back = found
+                .as_ref()
+                .is_some_and(|own| self.runs_back(&at, &own.0));
+            runs_back |= is_back;
+            let Some((next, steps)) = found.filter(|_| !is_back) else {
                 length *= 0.5;
                 if length < SHORTEST {
-                    break End::Lost;
+                    break if runs_back { End::Steady } else { End::Lost };
                 }
                 continue;
             };
+            if !points.is_empty() && self.is_closed(&first, &at, &next) {
+                let s = at.s + (&first.y - &at.y).norm();
+                self.between(&at, &Stand { s, ..first }, &mut happened);
+                break End::Closed;
+            }
             // Where something happens at a point itself no sign changes on either side of it.
             let beside = if self.is_special(&at, &next) {
                 self.step(&at, BESIDE * length)
@@ -274,6 +293,25 @@ impl Walk<'_> {
         happened.sort_by(|a, b| a.0.total_cmp(&b.0));
         special.extend(happened.into_iter().map(|(_, own)| own));
         Ok(end)
+    }
+
+    fn runs_back(&mut self, before: &Stand, after: &Stand) -> bool {
+        let [a, b] = [before, after].map(|own| (&own.point.unknowns[..], own.point.parameter));
+        self.equations.runs_back(a, b).unwrap_or(false)
+    }
+
+    /// Whether the curve passes its first point between two others, in the same direction.
+    fn is_closed(&mut self, first: &Stand, a: &Stand, b: &Stand) -> bool {
+        let (from, to) = (&a.y - &first.y, &b.y - &first.y);
+        let [before, after] = [&from, &to].map(|own| own.dot(&first.tangent));
+        let length = (&to - &from).norm();
+        let is_near = from.norm() < 2.0 * length && to.norm() < 2.0 * length;
+        if !(is_near && before < 0.0 && after >= 0.0 && a.tangent.dot(&first.tangent) > 0.0) {
+            return false;
+        }
+        let guess = &a.y + (&to - &from) * (before / (before - after));
+        let found = self.correct(&guess, &first.tangent);
+        found.is_ok_and(|(y, _)| (&y - &first.y).norm() < SAME * (1.0 + y.norm()))
     }
 
     /// Whether a test vanishes at a point, to rounding of what it is at the one before; one that does not vanish everywhere is no number there.
@@ -473,8 +511,11 @@ impl Walk<'_> {
                 continue;
             }
             if let Some(inside) = self.other_sign(sign, [a, b, c]) {
-                for own in [self.locate(sign, a, &inside), self.locate(sign, &inside, c)] {
-                    happened.extend(own.and_then(|own| self.special(test, own, false)));
+                for (a, c) in [(a, &inside), (&inside, c)] {
+                    let growth = [a, c].map(|own| self.value(Sign::Growth, own));
+                    let turns = growth[0] * growth[1] < 0.0;
+                    let own = self.locate(sign, a, c);
+                    happened.extend(own.and_then(|own| self.special(test, own, turns)));
                 }
             }
         }

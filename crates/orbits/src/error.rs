@@ -86,6 +86,9 @@ pub enum OrbitError {
         /// What is missing.
         names: String,
     },
+    /// Initial data that fulfil the constraints for some values of the parameters alone.
+    #[error("what is given at the start fulfils the constraints for these values alone, and a change of them contradicts it: give fewer initial data or state them by the parameters, or set `project = true`, which moves them to the nearest state that is admissible")]
+    GivenForValuesAlone,
     /// A name by which nothing can be varied.
     #[error("`{name}` is neither a parameter with a value of its own nor a given initial value; these are {}", known.join(", "))]
     UnknownVariation {

@@ -134,7 +134,7 @@ pub fn first_lyapunov(
     at: (&[f64], &[f64]),
     slopes: &DMatrix<f64>,
 ) -> Result<FirstLyapunov, WithoutLyapunov> {
-    let pair = Pair::nearest(slopes).ok_or(WithoutLyapunov::NoPair)?;
+    let pair = Pair::nearest(slopes)?;
     let lines = Lines::new(flow, at);
     let zeros = nullity(slopes, ZERO);
     let levels = Level::of(flow, at);
@@ -224,6 +224,9 @@ const ROUNDED: f64 = 1e-9;
 /// Gradients nearer to each other depend on each other.
 const INDEPENDENT: f64 = 1e-9;
 
+/// Real parts below this part of the frequency are zero.
+const ON_AXIS: f64 = 1e-8;
+
 /// Eigenvectors of the pair.
 struct Pair<'a> {
     slopes: &'a DMatrix<f64>,
@@ -233,10 +236,20 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn nearest(slopes: &'a DMatrix<f64>) -> Option<Pair<'a>> {
-        let all = eigenvalues(slopes).ok()?;
+    fn nearest(slopes: &'a DMatrix<f64>) -> Result<Pair<'a>, WithoutLyapunov> {
+        let all = eigenvalues(slopes).unwrap_or_default();
         let pairs = all.iter().filter(|l| l.im > 0.0);
-        let frequency = pairs.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()))?.im;
+        // Those that stand on the axis to rounding, which grows to its root where two of them are equal.
+        let on_axis = pairs.clone().filter(|l| l.re.abs() <= ON_AXIS * l.im);
+        if on_axis.count() > 1 {
+            return Err(WithoutLyapunov::Several);
+        }
+        let nearest = pairs.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()));
+        let frequency = nearest.ok_or(WithoutLyapunov::NoPair)?.im;
+        Pair::of(slopes, frequency).ok_or(WithoutLyapunov::NoPair)
+    }
+
+    fn of(slopes: &'a DMatrix<f64>, frequency: f64) -> Option<Pair<'a>> {
         let complex = slopes.map(|x| Complex::new(x, 0.0));
         let q = null_vector(&shifted(&complex, frequency))?;
         let p = null_vector(&shifted(&complex.transpose(), -frequency))?;

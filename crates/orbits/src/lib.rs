@@ -13,6 +13,7 @@
 //! All here is numerical: nothing is proved, and values are located to rounding.
 
 pub mod along;
+pub mod beginning;
 pub mod branch;
 pub mod continuation;
 pub mod equilibria;

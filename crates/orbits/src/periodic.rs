@@ -380,6 +380,23 @@ impl Equations for Shooting<'_> {
         })
     }
 
+    /// The phase is fixed by the rates of the point before: beyond a steady motion they have the other sign.
+    fn runs_back(
+        &mut self,
+        (x, p): (&[f64], f64),
+        (y, q): (&[f64], f64),
+    ) -> Result<bool, OrbitError> {
+        if self.is_forced {
+            return Ok(false);
+        }
+        let n = self.flow.n();
+        self.set(p)?;
+        let before = self.rates(0.0, &x[..n])?;
+        self.set(q)?;
+        let after = self.rates(0.0, &y[..n])?;
+        Ok(before.dot(&after) < 0.0)
+    }
+
     fn accepted(&mut self, x: &[f64], p: f64) -> Result<(), OrbitError> {
         self.set(p)?;
         if self.is_forced {

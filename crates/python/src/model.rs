@@ -634,20 +634,25 @@ impl Model {
     }
 
     /// Names of columns and rows of numbers: `simulate --sensitivity`.
-    #[pyo3(signature = (by, second, times, tell=None))]
+    #[pyo3(signature = (by, second, times, project=false, tell=None))]
     fn sensitivity(
         &self,
         py: Python<'_>,
         by: &str,
         second: bool,
         times: Vec<f64>,
+        project: bool,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(Vec<String>, Vec<Vec<f64>>)> {
+        let options = StudyOptions {
+            project,
+            ..StudyOptions::default()
+        };
         let order = if second { Order::Second } else { Order::First };
         let found = waiting::done(py, tell, |hooks| {
             interruptible(hooks, |hooks| {
                 (hooks.progress)("sensitivities", None);
-                sensitivity::sensitivity(&self.model, by, order, &times).map_err(Box::new)
+                sensitivity::sensitivity(&self.model, by, order, &times, &options).map_err(Box::new)
             })
         })?;
         match found.result {

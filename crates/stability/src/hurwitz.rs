@@ -124,6 +124,8 @@ pub enum Crossing {
     Zero,
     /// A pair of eigenvalues passes the imaginary axis.
     Pair,
+    /// Several pairs of eigenvalues are on the imaginary axis at once.
+    Pairs,
     /// The leading coefficient vanishes: an eigenvalue goes to infinity.
     Infinity,
     /// Two imaginary pairs of a spectrum that is its own mirror image meet.
@@ -217,6 +219,7 @@ pub(crate) fn ranges_within(
     }
     let zeros: Vec<Zero> = all.iter().map(|(_, zero)| zero.clone()).collect();
     let are_apart = !overlap(&zeros);
+    name_several(&mut all);
     let mut boundaries = distinct(all.into_iter().map(|own| own.0).collect());
     let mut regions: Vec<Region> = Vec::new();
     let lows = std::iter::once(low).chain(boundaries.iter().map(|b| &b.root.high));
@@ -281,8 +284,20 @@ impl Over<'_> {
         };
         let mut all = self.boundaries(leading, Crossing::Infinity)?;
         all.extend(self.boundaries(*own.coefficients.first()?, Crossing::Zero)?);
-        if let Some(&last) = list.len().checked_sub(2).and_then(|at| list.get(at)) {
-            all.extend(self.boundaries(last, pair)?);
+        let from_end = |k: usize| list.len().checked_sub(k).and_then(|at| list.get(at));
+        if let Some(&last) = from_end(2) {
+            let mut pairs = self.boundaries(last, pair)?;
+            // Where Δ_{m−3} vanishes too there are two of them, as zeros of the even and the odd part have two squares in common.
+            let before = from_end(4).filter(|_| !pairs.is_empty() && !own.is_paired);
+            let before = before
+                .and_then(|&e| self.boundaries(e, pair))
+                .unwrap_or_default();
+            for (boundary, zero) in &mut pairs {
+                if before.iter().any(|(_, other)| other == zero) {
+                    boundary.crossing = Crossing::Pairs;
+                }
+            }
+            all.extend(pairs);
         }
         Some(([vec![leading], list].concat(), all))
     }
@@ -334,13 +349,30 @@ fn distinct(mut all: Vec<Boundary>) -> Vec<Boundary> {
     kept
 }
 
+/// Pairs of several polynomials at one value.
+fn name_several(all: &mut Boundaries) {
+    let is_pair = |own: &Boundary| own.crossing == Crossing::Pair;
+    let pairs: Vec<Zero> = all
+        .iter()
+        .filter(|own| is_pair(&own.0))
+        .map(|own| own.1.clone())
+        .collect();
+    for (boundary, zero) in all.iter_mut().filter(|own| is_pair(&own.0)) {
+        if pairs.iter().filter(|own| *own == zero).count() > 1 {
+            boundary.crossing = Crossing::Pairs;
+        }
+    }
+}
+
 /// Where Δ_{m−1} vanishes two eigenvalues are opposite (Orlando 1911): a pair on the axis where the stability changes, and otherwise perhaps λ and
 /// −λ, as those of a bicycle at rest.
 fn name_pairs(boundaries: &mut [Boundary], regions: &[Region]) {
-    for boundary in boundaries
-        .iter_mut()
-        .filter(|b| matches!(b.crossing, Crossing::Pair | Crossing::Collision))
-    {
+    for boundary in boundaries.iter_mut().filter(|b| {
+        matches!(
+            b.crossing,
+            Crossing::Pair | Crossing::Pairs | Crossing::Collision
+        )
+    }) {
         let before = regions.iter().rfind(|r| r.high <= boundary.root.low);
         let after = regions.iter().find(|r| r.low >= boundary.root.high);
         let changes = before

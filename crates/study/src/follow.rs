@@ -233,7 +233,8 @@ fn state(
         return Err(StabilityError::SeveralMotions { names: Vec::new() }.into());
     };
     if motion.name == "start" {
-        return Ok((motion.name.clone(), initial(model, system, prepared)?));
+        let of = (model, system, prepared);
+        return Ok((motion.name.clone(), initial(of, &StudyOptions::default())?));
     }
     // A guess that leads to no motion exactly is one for Newton's method.
     let meant = near(system, terms, selection, (motion, &values));
@@ -255,13 +256,12 @@ pub(crate) fn of_motion(
 
 /// The consistent initial state.
 pub(crate) fn initial(
-    model: &Model,
-    system: &System,
-    prepared: &Prepared,
+    (model, system, prepared): (&Model, &System, &Prepared),
+    options: &StudyOptions,
 ) -> Result<Vec<(Symbol, f64)>, FollowError> {
+    let data = initial_data(model, system, options)?;
     let binding = Binding::new(system)?;
     let mut numeric = NumericSystem::new(system, &prepared.terms, &binding)?;
-    let data = initial_data(model, system, &StudyOptions::default())?;
     let start = consistent_state(&mut numeric, &data).map_err(StudyError::from)?;
     let positions = system.coordinate_symbols().into_iter().zip(start.q);
     let velocities = system.velocity_symbols().into_iter().zip(start.v);

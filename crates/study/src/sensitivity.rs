@@ -13,8 +13,9 @@ use chetaev_integrate::Output;
 use chetaev_mechanics::{Prepared, System};
 use chetaev_model::Model;
 use chetaev_orbits::along::{along, Along};
+use chetaev_orbits::beginning::Beginning;
 use chetaev_orbits::flow::Coordinates;
-use chetaev_orbits::sensitivity::{sensitivities, Beginning, Sensitivities};
+use chetaev_orbits::sensitivity::{sensitivities, Sensitivities};
 use chetaev_orbits::variational::Order;
 use chetaev_orbits::{Flow, OrbitError};
 use serde_json::{json, Value};
@@ -39,19 +40,23 @@ pub fn sensitivity(
     by: &str,
     order: Order,
     times: &[f64],
+    options: &StudyOptions,
 ) -> Result<Sensitivities, FollowError> {
     let (system, prepared) = of_motion(model)?;
-    let data = initial_data(model, &system, &StudyOptions::default())?;
+    let data = initial_data(model, &system, options)?;
     let is_fixed = |s| {
         let place = |all: Vec<_>| all.iter().position(|own| *own == s);
         let position = place(system.coordinate_symbols()).map(|i| data.q_fixed[i]);
         position.or_else(|| place(system.velocity_symbols()).map(|i| data.v_fixed[i]))
     };
-    let given = system.start.iter().copied();
+    let start = system.start.iter().copied();
+    let (given, guessed) = start.partition(|(s, _)| is_fixed(*s) == Some(true));
     let beginning = Beginning {
         t: data.t,
-        point: initial(model, &system, &prepared)?,
-        given: given.filter(|(s, _)| is_fixed(*s) == Some(true)).collect(),
+        point: initial((model, &system, &prepared), options)?,
+        given,
+        guessed,
+        project: data.project,
     };
     let names: Vec<String> = by.split(',').map(|name| name.trim().to_owned()).collect();
     let end = times.last().copied().unwrap_or(data.t);
@@ -97,9 +102,10 @@ const ROWS: f64 = 10.0;
 /// [`FollowError`].
 pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
     let (system, prepared) = of_motion(model)?;
-    let point = initial(model, &system, &prepared)?;
     let options = StudyOptions::default();
-    let t = initial_data(model, &system, &options)?.t;
+    let data = initial_data(model, &system, &options)?;
+    let point = initial((model, &system, &prepared), &options)?;
+    let t = data.t;
     let end = settings(model, &system, t, &options)?.t_end;
     let of_flow = |flow: Flow| -> Result<AlongMotion, OrbitError> {
         let start = flow.state(&point)?;

@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     }
     let varied = match &arguments.sensitivity {
         None => None,
-        Some(by) => match sensitivities(arguments, &read, (by, &table)) {
+        Some(by) => match sensitivities(arguments, &read, (by, &table, &study.options)) {
             Ok(text) => Some(text),
             Err(status) => return status,
         },
@@ -83,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
 fn sensitivities(
     arguments: &Arguments,
     read: &files::Read,
-    (by, table): (&str, &Table),
+    (by, table, options): (&str, &Table, &StudyOptions),
 ) -> Result<String, u8> {
     let order = if arguments.second {
         Order::Second
@@ -91,7 +91,7 @@ fn sensitivities(
         Order::First
     };
     let times = table.columns.first().cloned().unwrap_or_default();
-    match sensitivity(&read.model, by, order, &times) {
+    match sensitivity(&read.model, by, order, &times, options) {
         Ok(found) => Ok(to_csv(&found)),
         Err(problem) => Err(super::follow::refuse(read, problem)),
     }

@@ -7,8 +7,10 @@
 
 use crate::common::{is_close, system};
 use chetaev_integrate::Output;
-use chetaev_orbits::sensitivity::{sensitivities, Beginning};
+use chetaev_orbits::beginning::Beginning;
+use chetaev_orbits::sensitivity::sensitivities;
 use chetaev_orbits::variational::Order;
+use chetaev_orbits::OrbitError;
 use std::collections::BTreeMap;
 
 /// `x = x₀ cos ωt + (v₀/ω) sin ωt` with ω = √k: derivatives by the stiffness and by a speed that is given as the double of a parameter.
@@ -31,6 +33,8 @@ x = 1
         t: 0.0,
         point: vec![(symbol("x", 0), 1.0), (symbol("x", 1), 0.5)],
         given: system.start.clone(),
+        guessed: Vec::new(),
+        project: false,
     };
     let by = ["k".to_owned(), "s".to_owned(), "x".to_owned()];
     let found = sensitivities(
@@ -78,6 +82,8 @@ fn by_start_and_gravity(text: &str, point: &[(&str, f64)], end: f64) -> BTreeMap
         t: 0.0,
         point: point.iter().map(|&(name, x)| (symbol(name), x)).collect(),
         given: system.start.clone(),
+        guessed: Vec::new(),
+        project: false,
     };
     let by = ["th0".to_owned(), "g".to_owned()];
     let of = (&prepared.terms, &prepared.selection);
@@ -150,6 +156,8 @@ phi = 0
         t: 0.0,
         point: [positions, speeds].concat(),
         given: system.start.clone(),
+        guessed: Vec::new(),
+        project: false,
     };
     let by = ["u".to_owned(), "w".to_owned(), "phi".to_owned()];
     let found = sensitivities(
@@ -182,4 +190,143 @@ phi = 0
     // To the second, u/cos φ₀ = u (1 + φ₀²/2): x(φ₀) = Re((1 + φ₀²/2) e^{iφ₀} z), whose second derivative at 0 vanishes.
     is_close(at("d2 x/d phi d phi"), 0.0, 1e-12);
     is_close(at("d2 y/d phi d phi"), 0.0, 1e-12);
+}
+
+/// The sensitivities of a motion that begins at the nearest admissible state, by names.
+fn from_nearest(
+    text: &str,
+    (point, project): (&[(&str, f64)], bool),
+    by: &[&str],
+    end: f64,
+) -> Result<BTreeMap<String, f64>, OrbitError> {
+    let (system, prepared) = system(text);
+    let symbol = |name: &str| {
+        let order = u32::from(name.ends_with('\''));
+        let name = name.trim_end_matches('\'');
+        system.graph.intern_symbol(name, order)
+    };
+    let beginning = Beginning {
+        t: 0.0,
+        point: point.iter().map(|&(name, x)| (symbol(name), x)).collect(),
+        given: system.start.clone(),
+        guessed: Vec::new(),
+        project,
+    };
+    let by: Vec<String> = by.iter().map(|name| (*name).to_owned()).collect();
+    let of = (&prepared.terms, &prepared.selection);
+    let to = (end, Output::Times(vec![end]));
+    let found = sensitivities(&system, of, &beginning, (&by, Order::Second), to)?;
+    let row = found.rows.last().unwrap().1.clone();
+    Ok(found.columns().into_iter().zip(row).collect())
+}
+
+/// A point on a circle is the nearest one to (a, b), and its velocity the nearest one to (u, w): then it turns at the rate `(a w − b u)/r` from the
+/// angle of (a, b). In units of atoms and of planets too.
+#[test]
+fn the_nearest_state_on_a_circle_and_its_curvature() {
+    let (a, b, u, w, t) = (1.2_f64, 0.9_f64, 0.3, 0.7, 0.8);
+    let r = a.hypot(b);
+    let momentum = a * w - b * u;
+    let (angle, rate) = (b.atan2(a), momentum / r);
+    for (mass, length) in [(1.0, 1.0), (1.7e-27, 1e-10), (6e24, 1.5e11)] {
+        let text = format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ a = {a}, b = {b}, w = {w}, l = {length:?}, m = {mass:?} }}
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2)"
+[constraints]
+rod = "x^2 + y^2 = l^2"
+[initial]
+x = "a l"
+y = "b l"
+"x'" = "{u} l"
+"y'" = "w l"
+"#
+        );
+        let (sin, cos) = angle.sin_cos();
+        let point = [
+            ("x", length * cos),
+            ("y", length * sin),
+            ("x'", -length * sin * rate),
+            ("y'", length * cos * rate),
+        ];
+        let found = from_nearest(&text, (&point, true), &["a", "w"], t).unwrap();
+        let at = |name: &str| found[name] / length;
+        let (sin, cos) = (angle + rate * t).sin_cos();
+        // The derivatives of the angle and of the rate by a, and by w.
+        let (r2, r3) = (r * r, r.powi(3));
+        let angle_a = -b / r2;
+        let rate_a = w / r - momentum * a / r3;
+        let angle_aa = 2.0 * a * b / (r2 * r2);
+        let rate_aa = -(2.0 * w * a + momentum) / r3 + 3.0 * momentum * a * a / (r3 * r2);
+        let (rate_w, rate_aw) = (a / r, 1.0 / r - a * a / r3);
+        let turn = angle_a + t * rate_a;
+        is_close(at("x"), cos, 1e-12);
+        is_close(at("d x/d a"), -sin * turn, 1e-11);
+        is_close(at("d y/d a"), cos * turn, 1e-11);
+        is_close(at("d y/d w"), cos * t * rate_w, 1e-11);
+        let second = angle_aa + t * rate_aa;
+        let expected = -cos * turn * turn - sin * second;
+        is_close(at("d2 x/d a d a"), expected, 1e-10);
+        let expected = -cos * turn * t * rate_w - sin * t * rate_aw;
+        is_close(at("d2 x/d a d w"), expected, 1e-10);
+    }
+}
+
+/// Two masses on a line share what is wanting by the inverse of their masses; so do velocities that are given and contradict the constraint.
+#[test]
+fn the_nearest_state_is_one_in_the_kinetic_metric() {
+    let text = r#"
+coordinates = ["x", "y"]
+parameters = { m = 2, c = 3 }
+[lagrangian]
+T = "1/2 (m x'^2 + 5 y'^2)"
+[constraints]
+sum = "x + y = c"
+[initial]
+x = 1
+y = 1
+"x'" = "c"
+"y'" = "2 m"
+"#;
+    let (m, c) = (2.0, 3.0);
+    let share = 5.0 / (m + 5.0);
+    let by_mass = -5.0 / (m + 5.0_f64).powi(2);
+    let (lack, rest) = (c - 2.0, -c - 2.0 * m);
+    let (x, v) = (1.0 + lack * share, c + rest * share);
+    let point = [("x", x), ("y", c - x), ("x'", v), ("y'", -v)];
+    let found = from_nearest(text, (&point, true), &["m", "c"], 0.0).unwrap();
+    is_close(found["d x/d m"], lack * by_mass, 1e-14);
+    is_close(found["d x/d c"], share, 1e-14);
+    is_close(found["d y/d c"], 1.0 - share, 1e-14);
+    is_close(found["d x'/d m"], rest * by_mass - 2.0 * share, 1e-14);
+    is_close(found["d x'/d c"], 1.0 - share, 1e-14);
+    let second = -2.0 * by_mass / (m + 5.0);
+    is_close(found["d2 x/d m d m"], lack * second, 1e-13);
+    is_close(found["d2 x'/d m d m"], rest * second - 4.0 * by_mass, 1e-13);
+    is_close(found["d2 x/d m d c"], by_mass, 1e-13);
+}
+
+/// Data that fulfil a constraint for one length alone are varied by no length.
+#[test]
+fn data_that_hold_for_one_value_alone_are_not_varied() {
+    let text = r#"
+coordinates = ["x", "y"]
+parameters = { l = 1 }
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+[constraints]
+rod = "x^2 + y^2 = l^2"
+[initial]
+x = 0.6
+y = 0.8
+"x'" = 0
+"#;
+    let point = [("x", 0.6), ("y", 0.8), ("x'", 0.0), ("y'", 0.0)];
+    let refused = from_nearest(text, (&point, false), &["l"], 1.0).unwrap_err();
+    assert!(matches!(refused, OrbitError::GivenForValuesAlone));
+    let moved = from_nearest(text, (&point, true), &["l"], 1.0).unwrap();
+    is_close(moved["d x/d l"], 0.6, 1e-13);
+    is_close(moved["d y/d l"], 0.8, 1e-13);
 }

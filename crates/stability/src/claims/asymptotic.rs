@@ -46,7 +46,7 @@ impl Statement for Asymptotic {
     fn at_border(&self, holds_beside: bool, crossing: Option<Crossing>) -> Option<bool> {
         match crossing {
             None => holds_beside.then_some(true),
-            Some(Crossing::Pair | Crossing::Collision) => Some(false),
+            Some(Crossing::Pair | Crossing::Pairs | Crossing::Collision) => Some(false),
             // A zero may be that of a family that is there for this value alone.
             Some(Crossing::Zero | Crossing::Infinity | Crossing::Touching) => None,
         }

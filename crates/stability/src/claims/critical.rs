@@ -304,6 +304,7 @@ fn how(crossing: Crossing) -> &'static str {
     match crossing {
         Crossing::Zero => "an eigenvalue passes through zero",
         Crossing::Pair => "a pair passes the imaginary axis",
+        Crossing::Pairs => "several pairs are on the imaginary axis at once",
         Crossing::Infinity => "an eigenvalue goes to infinity",
         Crossing::Collision => "two imaginary pairs meet",
         Crossing::Touching => "two eigenvalues are opposite",

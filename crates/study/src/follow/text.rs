@@ -52,7 +52,12 @@ impl Followed {
             }
         }
         if let (Some(range), [a, b]) = (&self.range, self.branch.ends) {
-            for end in [a, b].into_iter().filter(|end| *end != End::Range) {
+            let both = if a == End::Closed {
+                vec![a]
+            } else {
+                vec![a, b]
+            };
+            for end in both.into_iter().filter(|end| *end != End::Range) {
                 let _ = writeln!(text, "{}", ending(end, &range.name));
             }
         }
@@ -237,6 +242,8 @@ impl Followed {
                 End::Range => "range",
                 End::Points => "points",
                 End::Lost => "lost",
+                End::Closed => "closed",
+                End::Steady => "steady",
             }),
         })
     }
@@ -287,6 +294,8 @@ fn ending(end: End, name: &str) -> String {
     match end {
         End::Range => String::new(),
         End::Points => format!("The curve goes on: more points by --points, or a narrower range of {name}."),
+        End::Closed => "The curve is closed: it comes back to its start.".into(),
+        End::Steady => "The curve ends where the orbit shrinks to a steady motion, as at a Hopf point.".into(),
         End::Lost => "The curve ends where no next point was found: the equations have no value beyond, it branches, or an orbit shrinks to a steady motion.".into(),
     }
 }

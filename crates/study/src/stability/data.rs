@@ -184,6 +184,7 @@ impl Stability {
         let kind = match boundary.crossing {
             Crossing::Zero => "zero",
             Crossing::Pair => "pair",
+            Crossing::Pairs => "pairs",
             Crossing::Collision => "collision",
             Crossing::Infinity => "infinity",
             Crossing::Touching => "touching",

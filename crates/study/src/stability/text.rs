@@ -373,6 +373,7 @@ impl Stability {
         match boundary.crossing {
             Crossing::Zero => "an eigenvalue passes through zero",
             Crossing::Pair => "a pair of eigenvalues passes the imaginary axis",
+            Crossing::Pairs => "several pairs of eigenvalues are on the imaginary axis at once",
             Crossing::Collision => "two pairs of eigenvalues meet",
             Crossing::Infinity => "an eigenvalue goes to infinity",
             Crossing::Touching => {

@@ -11,6 +11,7 @@ use super::words::sentence;
 use crate::decimals::Decimals;
 use crate::follow::text::{plain, where_eigenvalues_lie};
 use crate::follow::{initial, of_motion, FollowError};
+use crate::options::StudyOptions;
 use crate::stability::motions;
 use chetaev_mechanics::sample::Generator;
 use chetaev_mechanics::{ConstraintKind, Prepared, Selection, System};
@@ -298,7 +299,7 @@ fn starts(model: &Model, system: &System, prepared: &Prepared) -> Result<Vec<Sta
             all.extend(point.ok().map(|point| (name.to_owned(), point)));
         }
     }
-    let start = initial(model, system, prepared);
+    let start = initial((model, system, prepared), &StudyOptions::default());
     match (start, all.is_empty()) {
         (Ok(point), _) => all.push(("start".into(), point)),
         (Err(problem), true) => return Err(problem),

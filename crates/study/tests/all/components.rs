@@ -42,8 +42,9 @@ fn a_motion_and_its_derivatives_are_those_of_the_factor() {
     let product = model("(y - x^2)*(y + x)", ON_PARABOLA);
     let alone = model("y - x^2", ON_PARABOLA);
     let times: Vec<f64> = (0..=30).map(|k| f64::from(k) / 10.0).collect();
-    let [own, expected] =
-        [&product, &alone].map(|model| sensitivity(model, "x'", Order::Second, &times).unwrap());
+    let [own, expected] = [&product, &alone].map(|model| {
+        sensitivity(model, "x'", Order::Second, &times, &StudyOptions::default()).unwrap()
+    });
     assert_eq!(own.columns(), expected.columns());
     for ((_, row), (t, wanted)) in own.rows.iter().zip(&expected.rows) {
         for (x, y) in row.iter().zip(wanted) {
