@@ -111,6 +111,18 @@ pub enum Kind {
     },
 }
 
+impl Kind {
+    /// Whether both are one, found in two ways.
+    pub(crate) fn is_like(self, other: Kind) -> bool {
+        match (self, other) {
+            (Kind::Hopf { frequency: a, .. }, Kind::Hopf { frequency: b, .. }) => {
+                (a - b).abs() <= 1e-5 * a
+            }
+            _ => std::mem::discriminant(&self) == std::mem::discriminant(&other),
+        }
+    }
+}
+
 /// A point of a branch.
 #[derive(Clone, Debug)]
 pub struct Point {

@@ -448,7 +448,15 @@ impl Walk<'_> {
             found = Some(own);
             match count {
                 Some(count) if count == from => low = middle,
-                Some(_) => high = middle,
+                Some(count) if count == to => high = middle,
+                // They pass one after the other.
+                Some(_) => {
+                    if let Some(own) = found {
+                        self.between(a, &own, happened);
+                        self.between(&own, b, happened);
+                    }
+                    return;
+                }
                 None => break,
             }
         }
@@ -515,7 +523,16 @@ impl Walk<'_> {
                     let growth = [a, c].map(|own| self.value(Sign::Growth, own));
                     let turns = growth[0] * growth[1] < 0.0;
                     let own = self.locate(sign, a, c);
-                    happened.extend(own.and_then(|own| self.special(test, own, turns)));
+                    let own = own.and_then(|own| self.special(test, own, turns));
+                    let near = LOCATED_TWICE * (c.s - a.s);
+                    let is_known = |(s, own): &(f64, Special)| {
+                        let same = |(t, known): &(f64, Special)| {
+                            (s - t).abs() <= near && own.kind.is_like(known.kind)
+                        };
+                        happened.iter().any(same)
+                    };
+                    let own = own.filter(|own| !is_known(own));
+                    happened.extend(own);
                 }
             }
         }
@@ -645,6 +662,8 @@ fn largest(values: &[Complex<f64>]) -> f64 {
 
 /// A place between two points is found where it moves by less, in parts of their distance.
 const LOCATED: f64 = 1e-15;
+/// Places that are found in two ways differ by less.
+const LOCATED_TWICE: f64 = 1e-7;
 /// A test that is a larger part than this of what it is beside its change of sign does not pass through zero there.
 const JUMP: f64 = 1e-2;
 /// A singular value below this part of what it is beside belongs to a second direction.

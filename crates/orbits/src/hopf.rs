@@ -225,7 +225,9 @@ const ROUNDED: f64 = 1e-9;
 const INDEPENDENT: f64 = 1e-9;
 
 /// Real parts below this part of the frequency are zero.
-const ON_AXIS: f64 = 1e-8;
+const ON_AXIS: f64 = 1e-12;
+/// Where a place is not found to rounding, a pair that is so many times as far from the axis as the nearest one may be on it.
+const AS_NEAR: f64 = 4.0;
 
 /// Eigenvectors of the pair.
 struct Pair<'a> {
@@ -239,13 +241,17 @@ impl<'a> Pair<'a> {
     fn nearest(slopes: &'a DMatrix<f64>) -> Result<Pair<'a>, WithoutLyapunov> {
         let all = eigenvalues(slopes).unwrap_or_default();
         let pairs = all.iter().filter(|l| l.im > 0.0);
-        // Those that stand on the axis to rounding, which grows to its root where two of them are equal.
-        let on_axis = pairs.clone().filter(|l| l.re.abs() <= ON_AXIS * l.im);
-        if on_axis.count() > 1 {
+        let nearest = pairs
+            .clone()
+            .min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()));
+        let nearest = nearest.ok_or(WithoutLyapunov::NoPair)?;
+        // Those that stand on the axis to rounding, or as near to it as the nearest one.
+        let is_on_axis =
+            |l: &&Complex<f64>| l.re.abs() <= (ON_AXIS * l.im).max(AS_NEAR * nearest.re.abs());
+        if pairs.filter(is_on_axis).count() > 1 {
             return Err(WithoutLyapunov::Several);
         }
-        let nearest = pairs.min_by(|a, b| a.re.abs().total_cmp(&b.re.abs()));
-        let frequency = nearest.ok_or(WithoutLyapunov::NoPair)?.im;
+        let frequency = nearest.im;
         Pair::of(slopes, frequency).ok_or(WithoutLyapunov::NoPair)
     }
 

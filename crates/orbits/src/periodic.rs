@@ -433,6 +433,9 @@ pub fn arrival(flow: &Flow, start: &[f64], end: f64) -> Result<Vec<f64>, OrbitEr
     Ok(motion.end((0.0, end), &from)?.state)
 }
 
+/// Steps of Newton's method to the time at which a motion is nearest to its start.
+const REFINEMENTS: usize = 6;
+
 /// A guess of the period of an orbit near a state: the time of the nearest of the first returns to it before `end`.
 ///
 /// # Errors
@@ -441,20 +444,20 @@ pub fn period_guess(flow: &Flow, start: &[f64], end: f64) -> Result<f64, OrbitEr
     let mut motion = Variational::new(flow, Vec::new(), Order::Motion)?;
     let from = Extended::start(start, &motion);
     let rows = motion.run((0.0, end), &from, Output::Every(end / ROWS))?;
-    let distance = |z: &[f64]| -> f64 {
+    let away = |z: &[f64]| -> DVector<f64> {
         let parts = z.iter().zip(start).zip(&flow.is_turning);
-        let squares = parts.map(|((z, z0), &turns)| {
+        let own = parts.map(|((z, z0), &turns)| {
             let own = z - z0;
-            let own = if turns {
+            if turns {
                 own - (own / TAU).round() * TAU
             } else {
                 own
-            };
-            own * own
+            }
         });
-        squares.sum::<f64>().sqrt()
+        DVector::from_iterator(z.len(), own)
     };
-    let all: Vec<f64> = rows.iter().map(|(_, own)| distance(&own.state)).collect();
+    let distance = |(_, own): &(f64, Extended)| away(&own.state).norm();
+    let all: Vec<f64> = rows.iter().map(distance).collect();
     let size = all.iter().copied().fold(0.0, f64::max);
     let minima = (1..all.len().saturating_sub(1))
         .filter(|&i| all[i] < all[i - 1] && all[i] <= all[i + 1] && all[i] < NEAR * size);
@@ -467,5 +470,30 @@ pub fn period_guess(flow: &Flow, start: &[f64], end: f64) -> Result<f64, OrbitEr
     let found = candidates
         .into_iter()
         .find(|&i| all[i] <= nearest + 0.02 * size);
-    found.map(|i| rows[i].0).ok_or(OrbitError::NoReturn { end })
+    let found = found.ok_or(OrbitError::NoReturn { end })?;
+    let [(t, before), (mut period, own), (last, _)] =
+        [found - 1, found, found + 1].map(|i| rows[i].clone());
+    // The time at which the motion is nearest, so that a start on an orbit belongs to the one that is found.
+    let mut state = own.state;
+    for _ in 0..REFINEMENTS {
+        let values = flow
+            .parameters
+            .iter()
+            .map(|own| own.1)
+            .collect::<Vec<f64>>();
+        let rates = {
+            let value = flow.values_at(&state, &values);
+            flow.graph.evaluate_f64(&flow.rates, &value)
+        };
+        let Ok(rates) = rates.map(DVector::from_vec) else {
+            break;
+        };
+        let next = period - rates.dot(&away(&state)) / rates.norm_squared();
+        if !(next > t && next < last) || next.to_bits() == period.to_bits() {
+            break;
+        }
+        period = next;
+        state = motion.end((t, period), &before)?.state;
+    }
+    Ok(period)
 }

@@ -409,3 +409,97 @@ fn isolated_zeros_belong_to_no_family() {
         assert!((values[1] - expected).abs() < 1e-15, "{force}: {values:?}");
     }
 }
+
+/// Two oscillators lose their damping one after the other, at p = 0 and p = d, however near, and at d = 0 at once.
+#[test]
+fn two_pairs_pass_one_after_the_other_or_at_once() {
+    let (flow, _) = flow(
+        r#"
+coordinates = ["x", "y"]
+parameters = { p = -0.5, d = 0 }
+[lagrangian]
+L = "1/2 x'^2 - 1/2 x^2 + 1/2 y'^2 - y^2"
+[forces]
+x = "(p - x^2) x'"
+y = "(p - d + y^2) y'"
+"#,
+        &[("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)],
+    );
+    let place = flow.place(flow.graph.intern_symbol("d", 0)).unwrap();
+    for d in [0.0, 1e-7, 1e-4, 1e-2] {
+        let mut flow = flow.clone();
+        flow.parameters[place].1 = d;
+        let start = (&[0.0; 4][..], -0.5);
+        let found = curve(&flow, "p", start, (-1.0, 1.0), Pace::default());
+        let mut all: Vec<(f64, f64, Option<f64>)> = found
+            .special
+            .iter()
+            .map(|own| match own.kind {
+                Kind::Hopf {
+                    frequency,
+                    first_lyapunov,
+                } => (frequency, own.point.parameter, first_lyapunov.ok()),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert_eq!(all.len(), 2, "{d}: {all:?}");
+        let is_apart = d > 0.0;
+        // With x = r cos t the mean of x² x'·x' is r⁴/8, and that of y with its own frequency of the other sign.
+        for (own, at, sign) in [(all[0], 0.0, -1.0), (all[1], d, 1.0)] {
+            is_close(own.1, at, 1e-10);
+            assert_eq!(own.2.is_some(), is_apart, "{d}: {all:?}");
+            assert!(own.2.is_none_or(|l| l * sign > 0.0));
+        }
+    }
+}
+
+/// x² = 1 − p² is a circle: the curve comes back to its start after two folds.
+#[test]
+fn a_closed_curve_is_followed_once() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\nparameters = { p = 0 }\n[lagrangian]\nL = \"1/2 x'^2 - x^3/3 + x - p^2 x\"\n",
+        &[("x", 1.0), ("x'", 0.0)],
+    );
+    let pace = Pace::default();
+    let found = curve(&flow, "p", (&[1.0, 0.0], 0.0), (-2.0, 2.0), pace);
+    assert_eq!(found.ends, [End::Closed; 2]);
+    let folds: Vec<f64> = found
+        .special
+        .iter()
+        .map(|own| own.point.parameter)
+        .collect();
+    assert_eq!(folds.len(), 2, "{folds:?}");
+    for (own, expected) in folds.iter().zip([-1.0_f64, 1.0]) {
+        is_close(own.abs(), expected.abs(), 1e-12);
+    }
+    assert!(folds[0] * folds[1] < 0.0);
+    assert!(found.special.iter().all(|own| own.kind == Kind::Fold));
+    let [first, last] = [&found.points[0], &found.points[found.points.len() - 1]];
+    assert_eq!(first.unknowns, last.unknowns);
+}
+
+/// x³ − e x = p has two folds at p = ± 2 (e/3)^(3/2), however near to each other they are.
+#[test]
+fn two_folds_within_one_step() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\nparameters = { p = 0.5, e = 1e-3 }\n[lagrangian]\nL = \"1/2 x'^2 - x^4/4 + e x^2/2 + p x\"\n[forces]\nx = \"-x'\"\n",
+        &[("x", 0.8), ("x'", 0.0)],
+    );
+    let place = flow.place(flow.graph.intern_symbol("e", 0)).unwrap();
+    for e in [1e-2, 1e-3, 1e-5_f64] {
+        let mut flow = flow.clone();
+        flow.parameters[place].1 = e;
+        let start = (&[0.8, 0.0][..], 0.5);
+        let found = curve(&flow, "p", start, (-0.6, 0.6), Pace::default());
+        assert_eq!(found.special.len(), 2, "{e}: {:?}", found.special);
+        for own in &found.special {
+            assert_eq!(own.kind, Kind::Fold, "{e}");
+            let at = own.point.parameter.abs();
+            assert!(
+                (at / (2.0 * (e / 3.0).powf(1.5)) - 1.0).abs() < 1e-5,
+                "{e}: {at}"
+            );
+        }
+    }
+}

@@ -7,10 +7,10 @@
 
 use crate::common::{flow, is_close, system};
 use crate::points;
-use chetaev_orbits::branch::Kind;
+use chetaev_orbits::branch::{End, Kind};
 use chetaev_orbits::continuation::follow;
 use chetaev_orbits::flow::Coordinates;
-use chetaev_orbits::periodic::Shooting;
+use chetaev_orbits::periodic::{period_guess, Shooting};
 use chetaev_orbits::solution::solution;
 use chetaev_orbits::{Flow, OrbitError};
 
@@ -171,4 +171,33 @@ V = "1/2 (a - 2 q cos(2 t)) x^2"
         -0.121_765_544_941_082_72,
         2e-12,
     );
+}
+
+/// x'' = −4 x − x³ from rest at x = 1 has the period 4 K(1/10)/√5 (Byrd and Friedman 1971, 213), and the guess is as good.
+#[test]
+fn the_period_of_a_start_on_an_orbit() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\n[lagrangian]\nL = \"1/2 x'^2 - 2 x^2 - x^4/4\"\n",
+        &[("x", 1.0), ("x'", 0.0)],
+    );
+    let found = period_guess(&flow, &[1.0, 0.0], 20.0).unwrap();
+    is_close(found, 4.0 * 1.612_441_348_720_219_4 / 5.0_f64.sqrt(), 1e-12);
+}
+
+/// Orbits of (mu − x²) x' end at mu = 0 where they shrink to rest; beyond it the same orbits would come again, half a period later.
+#[test]
+fn orbits_shrink_to_rest() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\"]\nparameters = { mu = 0.5 }\n[lagrangian]\nL = \"1/2 x'^2 - 1/2 x^2\"\n[forces]\nx = \"(mu - x^2) x'\"\n",
+        &[("x", 1.4), ("x'", 0.0)],
+    );
+    let mu = flow.graph.intern_symbol("mu", 0);
+    let mut orbits = Shooting::new(&flow, Some(mu), None).unwrap();
+    let start = orbits.unknowns(&[1.4, 0.0], 6.4);
+    let found = follow(&mut orbits, (&start, 0.5), (-0.2, 0.6), points(200)).unwrap();
+    assert_eq!(found.ends, [End::Steady, End::Range]);
+    assert!(found.special.is_empty(), "{:?}", found.special);
+    let first = &found.points[0];
+    assert!(first.parameter.abs() < 1e-6 && first.unknowns[0].abs() < 1e-2);
+    assert!(found.points.iter().all(|own| own.unknowns[0] > 0.0));
 }

@@ -494,6 +494,38 @@ x = "acos(beta)"
     assert_eq!(stable, [false, true]);
 }
 
+/// Where two oscillators lose their damping at p = 0, both pairs are named, whether their equations are apart or coupled; one alone is one.
+#[test]
+fn two_pairs_on_the_axis_at_once() {
+    use chetaev_stability::hurwitz::{Boundary, Crossing};
+    for (coupling, d, expected) in [
+        ("0", 0, Crossing::Pairs),
+        // The zeros at p = 0 are ± i and ± √2 i.
+        ("p x", 0, Crossing::Pairs),
+        ("0", 1, Crossing::Pair),
+    ] {
+        let case = Case::new(&format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ p = -0.5 }}
+[lagrangian]
+L = "1/2 (x'^2 - x^2 + y'^2 - 2 y^2)"
+[forces]
+x = "p x' + p^2 y"
+y = "(p - {d}) y' + {coupling}"
+[steady.rest]
+x = 0
+y = 0
+"#
+        ));
+        let linear = case.linear(&case.system.steady[0], "p").unwrap();
+        let found = case.ranges(&linear, "p", -2, 2);
+        let is_at_zero = |own: &&Boundary| own.root.low.is_zero() && own.root.high.is_zero();
+        let own = found.boundaries.iter().find(is_at_zero);
+        assert_eq!(own.map(|own| own.crossing), Some(expected), "{found:?}");
+    }
+}
+
 /// A parameter of the equations over which a motion is judged: Watt's governor over its friction, which is positive.
 #[test]
 fn a_motion_is_judged_over_the_parameter_that_it_names() {

@@ -179,7 +179,9 @@ impl Followed {
     /// Where the eigenvalues lie that structure does not give.
     fn stability(&self, point: &Point) -> &'static str {
         let values = &point.spectrum.values;
-        if self.is_orbit {
+        if values.is_empty() {
+            "all by structure"
+        } else if self.is_orbit {
             let beyond = values.iter().map(|l| l.norm() - 1.0);
             border(beyond.fold(f64::NEG_INFINITY, f64::max))
         } else {
