@@ -1,35 +1,60 @@
-//! Numbers of one list in print: six places, or a power of ten where all of them are large or small.
+//! Numbers in print: some places, or a power of ten where they are large or small.
 
 /// How the numbers of a list are printed: what is rounding beside the largest is zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Decimals {
     largest: f64,
+    places: usize,
 }
 
-/// Sizes of the largest number of a list that are printed with six places.
+/// Sizes of the largest number of a list that are printed without a power of ten.
 const USUAL: std::ops::Range<f64> = 1e-3..1e7;
 /// What is smaller than this part of the largest number is rounding.
 const ROUNDED: f64 = 5e-13;
-/// What is zero in six places.
-const ZERO: f64 = 5e-7;
+/// States are known to this part of one.
+const KNOWN: f64 = 1e-12;
 
 impl Decimals {
-    /// For complex numbers.
+    /// For complex numbers, with six places.
     pub(crate) fn of(list: impl IntoIterator<Item = (f64, f64)>) -> Decimals {
         let sizes = list.into_iter().map(|(re, im)| re.abs().max(im.abs()));
         Decimals {
             largest: sizes.fold(0.0, f64::max),
+            places: 6,
         }
+    }
+
+    pub(crate) fn with_places(self, places: usize) -> Decimals {
+        Decimals { places, ..self }
     }
 
     /// A complex number.
     pub(crate) fn complex(self, (re, im): (f64, f64)) -> String {
         let (re, im) = (self.plain(re), self.plain(im));
-        match (self.is_usual(), im == 0.0) {
-            (true, true) => format!("{re:.6}"),
-            (true, false) => format!("{re:.6}{im:+.6}i"),
-            (false, true) => format!("{re:.6e}"),
-            (false, false) => format!("{re:.6e}{im:+.6e}i"),
+        let sign = if im < 0.0 { '-' } else { '+' };
+        match im {
+            0.0 => self.text(re),
+            im => format!("{}{sign}{}i", self.text(re), self.text(im.abs())),
+        }
+    }
+
+    /// A complex number as it is typeset: `−0.33 + 2.1 i`.
+    pub(crate) fn typeset(self, (re, im): (f64, f64)) -> String {
+        let (re, im) = (self.plain(re), self.plain(im));
+        let sign = if im < 0.0 { '−' } else { '+' };
+        let real = self.text(re).replace('-', "−");
+        match im {
+            0.0 => real,
+            im => format!("{real} {sign} {} i", self.text(im.abs()).replace('-', "−")),
+        }
+    }
+
+    fn text(self, x: f64) -> String {
+        let places = self.places;
+        if self.is_usual() {
+            format!("{x:.places$}")
+        } else {
+            format!("{x:.places$e}")
         }
     }
 
@@ -40,7 +65,7 @@ impl Decimals {
     /// No minus before what is zero as it is printed.
     fn plain(self, x: f64) -> f64 {
         let least = if self.is_usual() {
-            ZERO
+            0.5 * 0.1_f64.powi(self.places as i32)
         } else {
             ROUNDED * self.largest
         };
@@ -49,6 +74,15 @@ impl Decimals {
         } else {
             x
         }
+    }
+}
+
+/// A component of a state that was solved for, which is zero to rounding or has so many places.
+pub(crate) fn of_state(x: f64, places: usize) -> String {
+    if x.abs() < KNOWN {
+        real(0.0, places)
+    } else {
+        real(x, places)
     }
 }
 
@@ -80,5 +114,17 @@ mod tests {
             ["0.000000e0+1.150000e-20i", "-2.000000e-20"]
         );
         assert_eq!(text(&[(-5e-4, -1e10)]), ["0.000000e0-1.000000e10i"]);
+        let own = Decimals::of([(-0.25, 1.5)]).with_places(2);
+        assert_eq!(own.typeset((-0.25, -1.5)), "−0.25 − 1.50 i");
+        assert_eq!(own.typeset((0.001, 0.0)), "0.00");
+        let own = Decimals::of([(-2e-20, 3e-20)]).with_places(1);
+        assert_eq!(own.typeset((-2e-20, 3e-20)), "−2.0e−20 + 3.0e−20 i");
+    }
+
+    #[test]
+    fn states_of_all_sizes() {
+        assert_eq!(of_state(3e-17, 6), "0.000000");
+        assert_eq!(of_state(-2.5e-9, 6), "-2.500000e-9");
+        assert_eq!(of_state(0.25, 3), "0.250");
     }
 }

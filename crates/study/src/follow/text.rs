@@ -1,7 +1,7 @@
 //! A curve of steady motions or orbits in words and as JSON.
 
 use super::Followed;
-use crate::decimals::{real, Decimals};
+use crate::decimals::{of_state, real, Decimals};
 use chetaev_orbits::branch::{End, Kind, Point, Special};
 use chetaev_stability::eigenvalues::Complex;
 use serde_json::{json, Value};
@@ -149,7 +149,7 @@ impl Followed {
         });
         let values = self.variables.iter().zip(&point.unknowns);
         let values: Vec<String> = values
-            .map(|(name, x)| format!("{name} = {:.6}", plain(*x)))
+            .map(|(name, x)| format!("{name} = {}", of_state(*x, 6)))
             .collect();
         let period = self
             .periods
@@ -299,14 +299,5 @@ fn ending(end: End, name: &str) -> String {
         End::Closed => "The curve is closed: it comes back to its start.".into(),
         End::Steady => "The curve ends where the orbit shrinks to a steady motion, as at a Hopf point.".into(),
         End::Lost => "The curve ends where no next point was found: the equations have no value beyond, it branches, or an orbit shrinks to a steady motion.".into(),
-    }
-}
-
-/// No minus before what is zero as it is printed.
-pub(crate) fn plain(x: f64) -> f64 {
-    if x.abs() < 5e-7 {
-        0.0
-    } else {
-        x
     }
 }

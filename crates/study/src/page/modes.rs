@@ -1,6 +1,7 @@
 //! Modes to play: the steady motion and `Re(s e^{λt} v)`, drawn by the drawing of the model.
 
 use super::drawing::{drawn, of_study, pictured};
+use crate::decimals::real;
 use crate::stability::{Mode, Stability};
 use crate::study::Study;
 use chetaev_mechanics::SteadyMotion;
@@ -105,7 +106,7 @@ fn plain((re, im): (f64, f64)) -> (f64, f64) {
 /// `−0.33 ± 2.1 i`.
 fn written(eigenvalue: (f64, f64)) -> String {
     let (re, im) = plain(eigenvalue);
-    let text = |x: f64| format!("{x:.4}").replace('-', "−");
+    let text = |x: f64| real(x, 4).replace('-', "−");
     match (re == 0.0, im == 0.0) {
         (_, true) => text(re),
         (true, _) => format!("± {} i", text(im)),
@@ -116,7 +117,7 @@ fn written(eigenvalue: (f64, f64)) -> String {
 /// What a mode does, in a sentence.
 fn described(eigenvalue: (f64, f64), unit: &str) -> String {
     let (re, im) = plain(eigenvalue);
-    let number = |x: f64| format!("{x:.3}{unit}");
+    let number = |x: f64| format!("{}{unit}", real(x, 3));
     let changes = || number(std::f64::consts::LN_2 / re.abs());
     let period = || number(std::f64::consts::TAU / im.abs());
     match (re == 0.0, im == 0.0) {

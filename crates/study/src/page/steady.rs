@@ -2,6 +2,7 @@
 //! stability over two, and the modes.
 
 use super::modes;
+use crate::decimals::Decimals;
 use crate::overview::found::rounded;
 use crate::stability::map::{Asked, Course, Kind, StabilityMap};
 use crate::stability::{stability, Range, Stability, Wanted};
@@ -185,7 +186,8 @@ fn map_of(own: &StabilityMap) -> Map {
 
 fn row(study: &Study, name: &str, own: &Stability) -> TableRow {
     let list = own.eigenvalues(own.stated()).unwrap_or_default();
-    let eigenvalues: Vec<String> = list.iter().map(|&l| number(l)).collect();
+    let decimals = Decimals::of(list.iter().copied()).with_places(4);
+    let eigenvalues: Vec<String> = list.iter().map(|&l| decimals.typeset(l)).collect();
     let stated = |id: &str, word: &str| {
         let full = format!("{id}#{name}");
         let decided = study.verdicts.iter().find(|d| d.full_id() == full)?;
@@ -229,18 +231,6 @@ fn changes(own: &Stability) -> Vec<String> {
     };
     let boundaries = ranges.boundaries.iter();
     boundaries.filter_map(|own| text(&own.root)).collect()
-}
-
-fn number((re, im): (f64, f64)) -> String {
-    let plain = |x: f64| if x.abs() < 5e-7 { 0.0 } else { x };
-    match (plain(re), plain(im)) {
-        (re, 0.0) => format!("{re:.4}"),
-        (re, im) => format!(
-            "{re:.4} {} {:.4} i",
-            if im < 0.0 { "−" } else { "+" },
-            im.abs()
-        ),
-    }
 }
 
 /// Values of the parameter in the figure.

@@ -8,8 +8,8 @@
 //! determine no accelerations, and nothing is said of stability.
 
 use super::words::sentence;
-use crate::decimals::Decimals;
-use crate::follow::text::{plain, where_eigenvalues_lie};
+use crate::decimals::{of_state, Decimals};
+use crate::follow::text::where_eigenvalues_lie;
 use crate::follow::{initial, of_motion, FollowError};
 use crate::options::StudyOptions;
 use crate::stability::motions;
@@ -350,7 +350,7 @@ impl Search {
         for (at, own) in self.found.iter().enumerate() {
             let values = self.variables.iter().zip(&own.point.unknowns);
             let values: Vec<String> = values
-                .map(|(name, x)| format!("{name} = {:.9}", plain(*x)))
+                .map(|(name, x)| format!("{name} = {}", of_state(*x, 9)))
                 .collect();
             let from = own
                 .from
