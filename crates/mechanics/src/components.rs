@@ -87,9 +87,6 @@ pub struct Stratum {
     pub equations: Vec<Expr>,
 }
 
-/// A factor that is at most so large in units of the model vanishes at the start.
-const VANISHES: f64 = 1e-8;
-
 /// More components are not looked at one by one.
 const COMPONENTS: usize = 8;
 
@@ -146,25 +143,12 @@ fn root_of_square(g: &Graph, base: Expr) -> Option<Expr> {
 }
 
 impl System {
-    /// The system on one component of constraints nonlinear in the velocities that are products, `z'² = y² x'²`: that with the only factor
-    /// that vanishes at the start, by the values of factors there where they are known, else with the first. Constraints `F(u) = c`
-    /// and `F(u) = F(w)` with a function F that takes no value twice, `exp(z' − y x') = 1`, are `u = F⁻¹(c)` and `u = w`.
-    /// `None` where there are none.
+    /// The systems on all components of constraints nonlinear in the velocities that are products, `z'² = y² x'²`, each with a choice of factors.
+    /// Constraints `F(u) = c` and `F(u) = F(w)` with a function F that takes no value twice, `exp(z' − y x') = 1`, are `u = F⁻¹(c)` and
+    /// `u = w`. None where there are no such constraints, or too many.
     ///
     /// What is said of motions depends on the set of admissible states, not on the function that vanishes on it, as long as its
     /// gradient does not vanish there; on the factor it is the gradient of the product but for a multiplier.
-    pub fn on_component(&self, at_start: impl Fn(&[Expr]) -> Option<Vec<f64>>) -> Option<Stratum> {
-        let list = self.simpler();
-        let place = |own: &Simpler| match own.equations.as_slice() {
-            [_] => 0,
-            all => chosen(all, at_start(all)),
-        };
-        let places: Vec<usize> = list.iter().map(place).collect();
-        self.with_equations(&list, &places)
-    }
-
-    /// The systems on all components of constraints nonlinear in the velocities that are products or functions of simpler ones, as
-    /// [`on_component`](System::on_component) makes one; none where there are no such constraints, or too many.
     pub fn components(&self) -> Vec<Stratum> {
         let list = self.simpler();
         let many = list
@@ -455,17 +439,6 @@ fn assumption(g: &Graph, left: Expr, relation: Relation, right: Expr) -> Assumpt
         relation,
         right,
         text: format!("{} {sign} {}", g.text(left), g.text(right)),
-    }
-}
-
-/// The place of the factor that vanishes at the start, where only one does, else of the first.
-fn chosen(list: &[Expr], values: Option<Vec<f64>>) -> usize {
-    let values = values.unwrap_or_default();
-    let vanishes = |place: &usize| values.get(*place).is_some_and(|x| x.abs() <= VANISHES);
-    let own: Vec<usize> = (0..list.len()).filter(vanishes).collect();
-    match own.as_slice() {
-        &[place] => place,
-        _ => 0,
     }
 }
 

@@ -35,6 +35,7 @@ use chetaev_mechanics::{
     FORMULATIONS,
 };
 use chetaev_model::model::Model;
+use chetaev_motion::follow::magnitude;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, Component, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
@@ -510,7 +511,9 @@ fn searched(
         return Searched::default();
     }
     let known = registry();
-    let grounds = Grounds::new(system, prepared, &|on, list| at_start(on, start, list));
+    let grounds = Grounds::new(system, prepared, &|on, list| {
+        vanish_at_start(on, start, list)
+    });
     let strata = strata(&grounds, &known, options, None);
     let Some(family) = known.find(FAMILY) else {
         return Searched::default();
@@ -633,12 +636,20 @@ fn hypotheses(strata: &Strata<'_>, known: &Registry, mut requires: Vec<String>) 
     requires
 }
 
-/// Values of functions of the state where the motion starts.
-fn at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<Vec<f64>> {
+/// A function below this part of its terms vanishes where the motion starts.
+const VANISHES: f64 = 1e-8;
+
+/// Whether functions of the state vanish where the motion starts, beside their terms.
+fn vanish_at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<bool> {
     let g = &system.graph;
     let functions = g.substitute_all(functions, &system.parameter_values());
+    let sizes = functions.iter().map(|&e| magnitude(g, e));
+    let both: Vec<Expr> = sizes.chain(functions.iter().copied()).collect();
     let value = |symbol| of_start(system, symbol, start);
-    g.evaluate_f64(&functions, &value).ok()
+    let found = g.evaluate_f64(&both, &value).ok()?;
+    let (sizes, values) = found.split_at(functions.len());
+    let mut all = sizes.iter().zip(values);
+    Some(all.all(|(size, x)| x.abs() <= VANISHES * size))
 }
 
 fn decide(
@@ -651,7 +662,9 @@ fn decide(
     told: &mut dyn FnMut(&Decided),
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
-    let grounds = Grounds::new(system, prepared, &|on, list| at_start(on, start?, list));
+    let grounds = Grounds::new(system, prepared, &|on, list| {
+        vanish_at_start(on, start?, list)
+    });
     let strata = strata(&grounds, &known, options, motion);
     let deadline = (hooks.clock)() + LATE * options.budget;
     let verdicts = watched(hooks, work, Some(deadline), |hooks| {

@@ -20,8 +20,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// At most so many sets of exceptional values are looked at in a study: each derives the terms of a system anew.
 const EXCEPTIONS: usize = 8;
 
-/// Values of functions of the state where a motion starts, for a system; `None` where the start is not known.
-pub type AtStart<'f> = dyn Fn(&System, &[Expr]) -> Option<Vec<f64>> + 'f;
+/// Whether functions of the state vanish where a motion starts, for a system; `None` where the start is not known.
+pub type VanishAtStart<'f> = dyn Fn(&System, &[Expr]) -> Option<bool> + 'f;
 
 /// A system with its terms.
 #[derive(Debug)]
@@ -71,8 +71,12 @@ pub struct Grounds<'a> {
 }
 
 impl<'a> Grounds<'a> {
-    /// The systems for a model; `at_start` evaluates functions of the state where the motion starts, if that is known.
-    pub fn new(system: &'a System, prepared: &'a Prepared, at_start: &AtStart<'_>) -> Grounds<'a> {
+    /// The systems for a model; `at_start` says whether functions of the state vanish where the motion starts, if that is known.
+    pub fn new(
+        system: &'a System,
+        prepared: &'a Prepared,
+        at_start: &VanishAtStart<'_>,
+    ) -> Grounds<'a> {
         let written = (system, prepared);
         let family = |values: Vec<(Expr, Expr)>, own: Option<System>| {
             let whole = Owned::of(own);
@@ -109,7 +113,7 @@ impl Family {
         written: (&System, &Prepared),
         whole: Option<Owned>,
         values: Option<String>,
-        at_start: &AtStart<'_>,
+        at_start: &VanishAtStart<'_>,
     ) -> Family {
         let (system, prepared) = match &whole {
             Some(owned) => (&owned.system, &owned.prepared),

@@ -1,6 +1,6 @@
 //! Which components of constraints there are: none that is empty, or lies in another one.
 
-use super::{Stratum, VANISHES};
+use super::Stratum;
 use crate::characteristics::Characteristics;
 use crate::claims::Prepared;
 use crate::prover::Prover;
@@ -30,12 +30,9 @@ pub fn distinct(system: &System, prover: &Prover) -> Vec<(Stratum, Prepared)> {
 /// The place of the component on which a motion starts: of the only one whose factors vanish there, else the first.
 pub fn of_start(
     all: &[(Stratum, Prepared)],
-    at_start: impl Fn(&[Expr]) -> Option<Vec<f64>>,
+    vanish_at_start: impl Fn(&[Expr]) -> Option<bool>,
 ) -> usize {
-    let contains = |on: &Stratum| {
-        let values = at_start(&on.equations);
-        values.is_some_and(|values| values.iter().all(|x| x.abs() <= VANISHES))
-    };
+    let contains = |on: &Stratum| vanish_at_start(&on.equations) == Some(true);
     let places = (0..all.len()).filter(|&place| contains(&all[place].0));
     match places.collect::<Vec<usize>>().as_slice() {
         &[place] => place,

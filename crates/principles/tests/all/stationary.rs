@@ -7,7 +7,9 @@ mod subsets;
 use crate::common::worked::{text, CONE, DISC, INTEGRABLE, LEVEL_SKATE, PARTICLE, SKATE};
 use crate::common::{expr, finding, system, with_context, Text};
 use chetaev_mechanics::claims::formulation::manifold;
+use chetaev_mechanics::components::Stratum;
 use chetaev_mechanics::system::Parameter;
+use chetaev_mechanics::System;
 use chetaev_symbolic::Verdict;
 
 /// The condition of a conditional verdict, and that every case was followed.
@@ -337,6 +339,11 @@ fn a_cone_that_stays_implicit() {
     assert_condition(&stated, SUSLOV, &format!("{both} {with}"));
 }
 
+/// The first component of constraints that are products or functions of simpler ones.
+fn first(whole: &System) -> Stratum {
+    whole.components().swap_remove(0)
+}
+
 /// What is said on a component of a product, and of exp(z' − y x') = 1, is what is said of z' = y x' itself.
 #[test]
 fn components_have_their_own_answer() {
@@ -362,11 +369,13 @@ fn components_have_their_own_answer() {
         };
         let whole = system(&stated);
         let g = &whole.graph;
-        let on = whole.on_component(|list| {
+        let contains_start = |on: &Stratum| {
             let value = |s: chetaev_symbolic::Symbol| at(&g.symbol_text(s));
-            g.evaluate_f64(list, &value).ok()
-        });
-        let on = on.unwrap();
+            let values = g.evaluate_f64(&on.equations, &value).unwrap();
+            values.iter().all(|x| x.abs() < 1e-12)
+        };
+        let mut all = whole.components().into_iter();
+        let on = all.find(contains_start).unwrap();
         assert_eq!(on.condition.is_some(), one_of_several, "{f}");
         let found = finding(&on.system, STATIONARY);
         let (Verdict::Conditional { condition: a, .. }, Verdict::Conditional { condition: b, .. }) =
@@ -376,7 +385,7 @@ fn components_have_their_own_answer() {
         };
         assert_eq!(a, b, "{f}");
     }
-    assert!(system(&PARTICLE).on_component(|_| None).is_none());
+    assert!(system(&PARTICLE).components().is_empty());
 }
 
 /// What is said of a constraint is said of h f with a factor h that vanishes nowhere, or where f does only: of z' = y x' divided by x', multiplied by
@@ -403,9 +412,7 @@ fn factors_that_change_nothing() {
     ] {
         let constraints: &'static [(&str, &str)] = Box::leak(Box::new([("c", f)]));
         let whole = system(&text("x y z", particle, constraints));
-        let on = whole
-            .on_component(|_| None)
-            .unwrap_or_else(|| panic!("{f}"));
+        let on = first(&whole);
         assert!(on.condition.is_none(), "{f}: {:?}", on.condition);
         assert_eq!(finding(&on.system, KERNER).verdict.word(), kerner, "{f}");
         assert_eq!(
@@ -429,9 +436,7 @@ fn factors_that_change_nothing() {
     ] {
         let constraints: &'static [(&str, &str)] = Box::leak(Box::new([("c", f)]));
         let whole = system(&text("x y z", particle, constraints));
-        let on = whole
-            .on_component(|_| None)
-            .unwrap_or_else(|| panic!("{f}"));
+        let on = first(&whole);
         let found = finding(&on.system, STATIONARY);
         let Verdict::Conditional { condition, .. } = &found.verdict else {
             panic!("{f}: {}", found.verdict.detail())
@@ -439,10 +444,10 @@ fn factors_that_change_nothing() {
         assert_eq!(condition, "y' = 0", "{f}");
     }
     let over = system(&text("x y z", particle, &[("c", "(z' - y x')/(1 + x'^2)")]));
-    assert!(!over.on_component(|_| None).unwrap().sentence.contains('≠'));
+    assert!(!first(&over).sentence.contains('≠'));
     // A blade: y' cos z = x' sin z, with the speed u = x' cos z + y' sin z > 0. It is stationary where u z' = 0, here where z' = 0.
     let blade = system(&text("x y z", particle, &[("c", "atan2(y', x') - z")]));
-    let on = blade.on_component(|_| None).unwrap();
+    let on = first(&blade);
     assert!(
         on.sentence.contains("where -pi < z and z < pi and 0 < "),
         "{}",
@@ -476,16 +481,16 @@ fn factors_that_change_nothing() {
     assert_eq!(finding(&on.system, KERNER).verdict.word(), "proved");
     // Two real factors are two components; x'² + y² z'² + 1 vanishes nowhere.
     let product = system(&text("x y z", particle, &[("c", "z'^3 - y^2 x'^2 z'")]));
-    assert!(product.on_component(|_| None).unwrap().condition.is_some());
+    assert!(first(&product).condition.is_some());
     // x' = y' = 0 is not on z' = x'.
     let apart = system(&text(
         "x y z",
         particle,
         &[("c", "(z' - x') (x'^2 + y'^2)")],
     ));
-    assert!(apart.on_component(|_| None).unwrap().condition.is_some());
+    assert!(first(&apart).condition.is_some());
     let quotient = system(&text("x y z", particle, &[("c", "z' - x'^2/y'")]));
-    assert!(quotient.on_component(|_| None).is_none());
+    assert!(quotient.components().is_empty());
 }
 
 /// A refutation says which function would have to vanish, with κ and λ: of S4 with V = 0 κ = 0, λ = x' y'/(1 + y²), and λ y' must vanish, up to its sign.

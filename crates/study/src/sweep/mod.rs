@@ -292,7 +292,7 @@ fn to_keep(
         });
     }
     // Of the same states by simpler equations.
-    let simpler = system.on_component(|_| None);
+    let simpler = system.components().into_iter().next();
     let simpler = simpler.filter(|on| on.condition.is_none());
     let simpler = simpler.and_then(|on| Some((Prepared::new(&on.system).ok()?, on.system)));
     let (system, prepared) = simpler

@@ -100,3 +100,38 @@ fn what_is_measured_is_the_constraint_where_the_motion_changes_its_component() {
         .reason
         .contains("none of the two"));
 }
+
+/// Of the factors z' − x' and z' − y x' a start chooses by itself, at speeds of a walk and of atoms alike.
+#[test]
+fn the_component_of_a_start_at_any_speed() {
+    for speed in ["1", "1e-10", "1e-25", "1e12"] {
+        let text = format!(
+            "name = \"two components\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"1/2 (x'^2 + y'^2 + z'^2)\"\n[constraints]\n\
+             c = \"(z' - x') (z' - y x') = 0\"\n[initial]\ny = 2\n\"x'\" = {speed}\n\"z'\" = \"2*{speed}\"\n\"y'\" = {speed}\n\
+             [simulation]\nt_end = \"1/{speed}\"\n"
+        );
+        let loaded = load("model.toml", &text, &NoFiles, &[]).into_result();
+        let model = loaded.unwrap().0;
+        let options = StudyOptions {
+            claims: ClaimSelection {
+                words: vec!["witness.stationary".into()],
+            },
+            ..StudyOptions::default()
+        };
+        let mut hooks = Hooks {
+            clock: &|| 0.0,
+            interrupt: None,
+            progress: &mut |_, _| (),
+        };
+        let study = study(model, options, &mut hooks).unwrap();
+        let own = study
+            .verdicts
+            .iter()
+            .find(|own| own.claim == "witness.stationary");
+        let detail = own.unwrap().finding.verdict.detail();
+        assert!(
+            detail.starts_with("on the component y x' - z' = 0"),
+            "{speed}: {detail}"
+        );
+    }
+}
