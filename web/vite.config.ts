@@ -1,6 +1,5 @@
 import { readFileSync, readdirSync, statSync, writeFileSync, existsSync } from "node:fs";
 import { createHash } from "node:crypto";
-import { gzipSync } from "node:zlib";
 import { join, relative, resolve } from "node:path";
 import { defineConfig, type Plugin } from "vite";
 
@@ -31,9 +30,9 @@ function engine(): Plugin {
   return {
     name: "engine",
     generateBundle() {
-      const path = join(PACKAGE, "chetaev_bg.wasm");
-      if (!existsSync(path)) this.error("pkg/chetaev_bg.wasm is missing: `cargo xtask web` builds it");
-      this.emitFile({ type: "asset", fileName: "engine.bin", source: gzipSync(readFileSync(path), { level: 9 }) });
+      const path = join(PACKAGE, "chetaev_bg.wasm.xz");
+      if (!existsSync(path)) this.error("pkg/chetaev_bg.wasm.xz is missing: `cargo xtask web` builds it");
+      this.emitFile({ type: "asset", fileName: "engine.bin", source: readFileSync(path) });
     },
   };
 }

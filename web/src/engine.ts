@@ -1,5 +1,6 @@
 // One worker at a time does the work; another one stands ready, so that ending the work means ending the worker.
 
+import { XzReadableStream } from "xz-decompress";
 import type { Question } from "./worker";
 
 /** Why there is no answer. */
@@ -29,13 +30,8 @@ const LONGEST = 300;
 async function load(): Promise<WebAssembly.Module> {
   const response = await fetch(new URL("./engine.bin", document.baseURI));
   if (!response.ok || !response.body) throw new Error(`engine.bin: ${response.status}`);
-  const headers = { "content-type": "application/wasm" };
-  // A server may have unpacked it already.
-  if (response.headers.get("content-encoding")) {
-    return WebAssembly.compileStreaming(new Response(response.body, { headers }));
-  }
-  const body = response.body.pipeThrough(new DecompressionStream("gzip") as ReadableWritablePair<Uint8Array, Uint8Array>);
-  return WebAssembly.compileStreaming(new Response(body as ReadableStream<Uint8Array<ArrayBuffer>>, { headers }));
+  const body = new XzReadableStream(response.body) as ReadableStream<Uint8Array<ArrayBuffer>>;
+  return WebAssembly.compileStreaming(new Response(body, { headers: { "content-type": "application/wasm" } }));
 }
 
 export class Engine {
