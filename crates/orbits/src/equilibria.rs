@@ -4,7 +4,7 @@ use crate::branch::{Equations, Kind, Linearized, FAMILY};
 use crate::error::OrbitError;
 use crate::flow::Flow;
 use crate::hopf::first_lyapunov;
-use crate::multipliers::{eigenvalues, Spectrum};
+use crate::multipliers::{eigenvalues, errors, Spectrum};
 use crate::subspace::{decomposed, nullity};
 use chetaev_motion::functions::Functions;
 use chetaev_stability::eigenvalues::{balanced, Balanced};
@@ -19,6 +19,8 @@ pub struct Equilibria<'f> {
     place: Option<usize>,
     functions: Functions,
     values: Vec<f64>,
+    /// The dimension of the family of solutions that was asked of last.
+    family: usize,
 }
 
 /// Pairs whose sum is a smaller part of the largest eigenvalue vanish by structure, as in systems with an energy.
@@ -52,6 +54,7 @@ impl<'f> Equilibria<'f> {
             values: flow.parameters.iter().map(|own| own.1).collect(),
             flow,
             place,
+            family: 0,
         })
     }
 
@@ -109,6 +112,7 @@ impl Equations for Equilibria<'_> {
     /// On the range of ∂f/∂z, the complement of which structure gives, the zeros of finite constraints and of the family are not seen.
     fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError> {
         self.set(x, p)?;
+        self.family = family;
         // Subspaces are found to rounding of the largest entry: in suitable units of the variables.
         let Balanced { matrix, unit, .. } = balanced(&self.slopes());
         let slopes = matrix * unit;
@@ -121,12 +125,17 @@ impl Equations for Equilibria<'_> {
             Some(found) => DMatrix::from(found.u.columns(0, count)),
             None => return Err(OrbitError::NoEigenvalues),
         };
-        let values = if trivial.is_empty() {
-            eigenvalues(&slopes)?
+        let kept = if trivial.is_empty() {
+            slopes
         } else {
-            eigenvalues(&range.tr_mul(&(slopes * &range)))?
+            range.tr_mul(&(slopes * &range))
         };
-        Ok(Spectrum { values, trivial })
+        let values = eigenvalues(&kept)?;
+        Ok(Spectrum {
+            errors: errors(&kept, &values),
+            values,
+            trivial,
+        })
     }
 
     fn beyond(&self, value: Complex<f64>, size: f64) -> Option<f64> {
@@ -169,7 +178,8 @@ impl Equations for Equilibria<'_> {
             return Ok(None);
         };
         self.set(x, p)?;
-        let found = first_lyapunov(self.flow, (x, &self.values), &self.slopes());
+        let about = (&self.slopes(), self.family);
+        let found = first_lyapunov(self.flow, (x, &self.values), about);
         Ok(Some(Kind::Hopf {
             frequency: pair.im,
             first_lyapunov: found.map(|own| own.coefficient),

@@ -1,6 +1,7 @@
 //! The motion as a first-order system `z' = f(t, z, p)`.
 
 use crate::error::OrbitError;
+use crate::units::Units;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::{outside_angles, Turns};
@@ -38,6 +39,8 @@ pub struct Flow {
     pub is_turning: Vec<bool>,
     /// What the equations were divided by.
     pub divisors: Divisors,
+    /// The units of the variables and of the time.
+    pub units: Units,
 }
 
 /// Matrices of functions of z by which accelerations and velocities are determined.
@@ -84,6 +87,7 @@ impl Flow {
             names: variables.iter().map(|&s| graph.symbol_text(s)).collect(),
             is_turning: vec![false; variables.len()],
             divisors: Divisors::default(),
+            units: Units::ones(variables.len()),
             definitions: own,
             velocities: Vec::new(),
             finite: Vec::new(),
@@ -145,6 +149,7 @@ impl Flow {
             conserved: Vec::new(),
             is_turning: Vec::new(),
             divisors: Divisors::default(),
+            units: Units::ones(variables.len()),
             variables,
         };
         let finite = selection.rows.iter();

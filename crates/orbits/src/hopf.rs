@@ -37,7 +37,7 @@ pub enum WithoutLyapunov {
     #[error("the first Lyapunov coefficient was not computed: the equations have no explicit form with three derivatives there")]
     NoDerivatives,
     /// Zeros beside the pair that no integral takes out.
-    #[error("the first Lyapunov coefficient is not defined: {zeros} zero eigenvalues stand beside the pair, and integrals take out {levels} of them")]
+    #[error("the first Lyapunov coefficient is not defined: zero eigenvalues stand beside the pair ({zeros}), and integrals take out {levels} of them")]
     Zeros {
         /// How many.
         zeros: usize,
@@ -125,21 +125,22 @@ impl<'f> Lines<'f> {
 }
 
 /// The first Lyapunov coefficient of the pair nearest to the axis at a steady motion, on the levels of integrals where a family stands beside the
-/// pair; `slopes` is ∂f/∂z there.
+/// pair; `slopes` is ∂f/∂z there, and `family` the dimension of the family of steady motions to which it belongs. The flow is one in suitable
+/// units; the coefficient is that for eigenvectors of unit length as the variables are.
 ///
 /// # Errors
 /// [`WithoutLyapunov`] where there is none.
 pub fn first_lyapunov(
     flow: &Flow,
     at: (&[f64], &[f64]),
-    slopes: &DMatrix<f64>,
+    (slopes, family): (&DMatrix<f64>, usize),
 ) -> Result<FirstLyapunov, WithoutLyapunov> {
     let pair = Pair::nearest(slopes)?;
     let lines = Lines::new(flow, at);
     let zeros = nullity(slopes, ZERO);
     let levels = Level::of(flow, at);
     if levels.len() < zeros {
-        let is_line = zeros == 1 && levels.is_empty();
+        let is_line = zeros == 1 && family == 1 && levels.is_empty();
         let product = is_line.then(|| pair.drift(&lines)).flatten();
         return Err(match product.filter(|own| own.is_finite() && *own != 0.0) {
             Some(product) => WithoutLyapunov::Drifts { product },
@@ -151,14 +152,17 @@ pub fn first_lyapunov(
     }
     let coefficient = pair.coefficient(&lines, &levels);
     let coefficient = coefficient.filter(|own| own.is_finite());
+    let coefficient = coefficient.ok_or(WithoutLyapunov::NoDerivatives)?;
+    let lengths = pair.q.iter().zip(&flow.units.scale);
+    let square: f64 = lengths.map(|(q, s)| q.norm_sqr() * s * s).sum();
     Ok(FirstLyapunov {
         frequency: pair.frequency,
-        coefficient: coefficient.ok_or(WithoutLyapunov::NoDerivatives)?,
+        coefficient: coefficient / square,
     })
 }
 
-/// Singular values below this part of the largest are zeros.
-const ZERO: f64 = 1e-10;
+/// Singular values below this part of the largest are zeros, in suitable units.
+const ZERO: f64 = 1e-13;
 
 /// Gradient and second derivatives of a function that is constant along motions.
 struct Level {

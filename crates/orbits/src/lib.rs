@@ -26,6 +26,7 @@ pub mod periodic;
 pub mod sensitivity;
 pub mod solution;
 mod subspace;
+pub mod units;
 pub mod variational;
 pub mod witness;
 

@@ -6,6 +6,7 @@
 
 use crate::error::OrbitError;
 use crate::subspace::complement;
+use chetaev_stability::singular::singular;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Eigenvalues that decide, and what others are.
@@ -13,6 +14,8 @@ use nalgebra::{Complex, DMatrix, DVector};
 pub struct Spectrum {
     /// Those that structure does not give, ascending by real and then by imaginary part.
     pub values: Vec<Complex<f64>>,
+    /// How far each of them may be from what it is.
+    pub errors: Vec<f64>,
     /// Those that it does, each by what it belongs to; they are 0 of linear equations and 1 of a monodromy matrix.
     pub trivial: Vec<String>,
 }
@@ -41,11 +44,16 @@ pub fn split(
     let modulo = complement(kept.ncols(), &columns(kept.ncols(), &inside));
     let values = eigenvalues(&modulo.tr_mul(&(on_kept * &modulo)))?;
     let names = inside.into_iter().chain(left).map(|(name, _)| name);
+    let error = INTEGRATED * matrix.amax().max(1.0);
     Ok(Spectrum {
+        errors: vec![error; values.len()],
         values,
         trivial: names.collect(),
     })
 }
+
+/// What an integration through a period leaves open, in parts of the largest entry of the matrix.
+const INTEGRATED: f64 = 1e-12;
 
 /// A vector counts as dependent on others where less than this part of it is left.
 const DEPENDENT: f64 = 1e-7;
@@ -83,4 +91,37 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, OrbitErro
     };
     chetaev_stability::eigenvalues::eigenvalues(&rows(&DMatrix::identity(n, n)), &rows(matrix))
         .ok_or(OrbitError::NoEigenvalues)
+}
+
+/// Real parts between these parts of the largest eigenvalue are looked at: larger ones are no rounding, and smaller ones are.
+const DOUBTFUL: std::ops::Range<f64> = 1e-14..1e-6;
+
+/// How far the eigenvalues of a matrix may be from what was computed, where that decides on which side of the axis they lie: its rounding times the
+/// condition of each, one over the product of its left and its right eigenvector of unit length (Wilkinson 1965, ch. 2).
+pub fn errors(matrix: &DMatrix<f64>, values: &[Complex<f64>]) -> Vec<f64> {
+    let size = values.iter().map(|l| l.norm()).fold(0.0, f64::max);
+    let rounding = 4.0 * f64::EPSILON * matrix.norm();
+    let complex = matrix.map(|x| Complex::new(x, 0.0));
+    let n = matrix.nrows();
+    let condition = |l: Complex<f64>| {
+        let shifted = &complex - DMatrix::identity(n, n) * l;
+        let found = singular(&shifted)?;
+        let last = n.checked_sub(1)?;
+        Some(
+            found
+                .left
+                .column(last)
+                .dotc(&found.right.column(last))
+                .norm()
+                .recip(),
+        )
+    };
+    let error = |l: &Complex<f64>| {
+        if DOUBTFUL.contains(&(l.re.abs() / size)) {
+            rounding * condition(*l).unwrap_or(f64::INFINITY)
+        } else {
+            rounding.max(DOUBTFUL.start * size)
+        }
+    };
+    values.iter().map(error).collect()
 }

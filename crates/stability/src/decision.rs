@@ -346,14 +346,17 @@ fn instead(
     let name = about.graph().symbol_text(symbol);
     let beyond = format!("nothing is said of other values of {name}, since the boundaries of stability in it were not enclosed");
     match found {
-        Ok(Verdict::Proved(proof)) => Verdict::Conditional {
-            condition: stated_value(about, symbol),
-            proof: Proof::exact(
-                "for the values of the parameters that are stated",
-                format!("{}; {beyond}", proof.detail),
+        Ok(Verdict::Proved(proof)) => Verdict::Proved(Proof::exact(
+            format!(
+                "for the values of the parameters that are stated, {}",
+                stated_value(about, symbol)
             ),
-            counterexample: None,
-        },
+            format!(
+                "for {}: {}; {beyond}",
+                stated_value(about, symbol),
+                proof.detail
+            ),
+        )),
         Ok(Verdict::Refuted(own)) => Verdict::Refuted(Counterexample {
             detail: format!(
                 "{} for {}; {beyond}",
@@ -397,6 +400,9 @@ fn exists(about: &About<'_>, values: &[(Expr, Expr)]) -> bool {
     let is_known = g.symbols_in(&stated).is_empty();
     !is_known || g.enclose(&stated, &Precision::new(128), &|_| None).is_ok()
 }
+
+/// Fractions are written with at most so many characters.
+const LONGEST: usize = 24;
 
 /// A number that is written in full by at most so many digits behind the point.
 fn terminating(at: &RBig) -> Option<String> {
@@ -658,7 +664,8 @@ impl Pieces {
                 [one] => Some(one),
                 _ => Some(Crossing::Touching),
             };
-            let is_finite = !own.contains(&Crossing::Infinity);
+            let is_finite =
+                !own.contains(&Crossing::Infinity) && !own.contains(&Crossing::Singular);
             let beside = is_finite && self.pieces.iter().any(holds);
             border.holds = statement.at_border(beside, crossing);
             let is_rational = root.low == root.high;
@@ -777,7 +784,7 @@ impl Pieces {
                 && !b.is_absent
                 && beside.all(|piece| !matches!(piece.said, Said::Holds(_)))
         });
-        let alone = alone.map(|b| format!("{} = {}", self.name, decimal(&b.root.low)));
+        let alone = alone.map(|b| format!("{} = {}", self.name, self.decimal(&b.root.low)));
         parts.extend(alone);
         parts.join(" or ")
     }
@@ -801,8 +808,15 @@ impl Pieces {
         }
     }
 
-    /// A value as a person reads it, with as many digits as tell it from other borders.
+    /// A value as a person reads it: as it is where it is known, else with as many digits as tell it from other borders.
     fn decimal(&self, at: &RBig) -> String {
+        let is_exact = |b: &&Border| b.root.low == *at && b.root.high == *at;
+        if self.borders.iter().any(|b| is_exact(&b)) {
+            let fraction = || Some(at.to_string()).filter(|text| text.len() <= LONGEST);
+            if let Some(text) = terminating(at).or_else(fraction) {
+                return text;
+            }
+        }
         let own = decimal(at);
         let is_same = |b: &&Border| [&b.root.low, &b.root.high].map(decimal).contains(&own);
         if self.borders.iter().filter(is_same).count() < 2 {

@@ -4,6 +4,7 @@ use crate::expansion::Expansion;
 use crate::steady::{closed, kernel};
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::System;
+use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
@@ -101,12 +102,48 @@ impl Expansion<'_> {
             .filter(|row| !is_chosen(row))
             .map(|row| equations[row].0)
             .collect();
+        let (chosen, others) = self.near(chosen, &others);
         let dimension = variables.len() - pivots.len();
         if dimension == 0 || vanish_on(self.system, &others, &chosen) {
             dimension
         } else {
             0
         }
+    }
+
+    /// The same equations near the motion: variables that are zero are left out, and so are factors that do not vanish at the motion, as x of
+    /// (x² + y² − 1) x.
+    fn near(
+        &self,
+        chosen: Vec<(Expr, Symbol)>,
+        others: &[Expr],
+    ) -> (Vec<(Expr, Symbol)>, Vec<Expr>) {
+        let (g, variables) = (self.graph(), self.variables());
+        let is_zero = |own: &(Expr, Symbol)| own.0 == g.symbol_expr(own.1);
+        let zeros: Vec<(Expr, Expr)> = chosen
+            .iter()
+            .filter(|own| is_zero(own))
+            .map(|own| (own.0, g.zero()))
+            .collect();
+        let factor = |e: Expr| {
+            let e = g.substitute(e, &zeros);
+            let all = irreducible_factors(g, e, &variables).unwrap_or_default();
+            let all: Vec<Expr> = all.into_iter().map(|own| own.0).collect();
+            let at = self.at(&all);
+            let here = all.iter().zip(at).filter(|own| g.is_zero(own.1));
+            match here.collect::<Vec<_>>()[..] {
+                [(&only, _)] => only,
+                _ => e,
+            }
+        };
+        let near = chosen.into_iter().map(|own| {
+            if is_zero(&own) {
+                own
+            } else {
+                (factor(own.0), own.1)
+            }
+        });
+        (near.collect(), g.substitute_all(others, &zeros))
     }
 
     /// The finite constraints with their gradients by the variables at the motion.

@@ -128,6 +128,8 @@ pub enum Crossing {
     Pairs,
     /// The leading coefficient vanishes: an eigenvalue goes to infinity.
     Infinity,
+    /// The equations determine no accelerations there, though no eigenvalue goes to infinity.
+    Singular,
     /// Two imaginary pairs of a spectrum that is its own mirror image meet.
     Collision,
     /// Two eigenvalues are opposite, and on both sides of that value the stability is the same.
@@ -211,12 +213,24 @@ pub(crate) fn ranges_within(
         halvings,
     };
     let mut lists = Vec::new();
-    let mut all = range.boundaries(leading, Crossing::Infinity)?;
+    let mut all = Boundaries::new();
     for own in polynomials {
         let (list, boundaries) = range.of(own)?;
         all.extend(boundaries);
         lists.push(list);
     }
+    let mut of_masses = range.boundaries(leading, Crossing::Singular)?;
+    for (boundary, zero) in &mut of_masses {
+        let goes_off = |own: &(Boundary, Zero)| {
+            own.0.crossing == Crossing::Infinity
+                && own.1.root.low <= zero.root.high
+                && zero.root.low <= own.1.root.high
+        };
+        if all.iter().any(goes_off) {
+            boundary.crossing = Crossing::Infinity;
+        }
+    }
+    all.splice(0..0, of_masses);
     let zeros: Vec<Zero> = all.iter().map(|(_, zero)| zero.clone()).collect();
     let are_apart = !overlap(&zeros);
     name_several(&mut all);

@@ -15,7 +15,7 @@ pub enum LinearizationError {
     #[error("a mass of this system changes along the motion, so that no motion is steady; linear equations, orbits and sensitivities are those of masses that stay")]
     MassesMove,
     /// The time occurs.
-    #[error("the equations contain the time explicitly, so that no motion is steady; `chetaev linearize --along` takes the motion from the initial state")]
+    #[error("the equations contain the time explicitly, and steady motions are looked for where they do not; `chetaev linearize --along` takes the motion from the initial state")]
     NotAutonomous,
     /// No independent velocities.
     #[error(transparent)]

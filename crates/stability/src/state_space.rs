@@ -332,8 +332,37 @@ impl StateSpace {
         self.d = vec![vec![g.zero(); self.inputs.len()]; size];
     }
 
-    /// The transfer functions from each input (column) to each output (row), rational functions of `s`; `None` where the system is large.
+    /// The controls among the inputs: of one that occurs with its derivatives they are inputs too, of the same control.
+    pub fn controls(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for input in &self.inputs {
+            let name = input.trim_end_matches('\'');
+            if !names.iter().any(|own| own == name) {
+                names.push(name.to_owned());
+            }
+        }
+        names
+    }
+
+    /// The transfer functions from each control (column) to each output (row), rational functions of `s`; `None` where the system is large. The
+    /// k-th derivative of a control is s^k times it.
     pub fn transfer(&self, g: &Graph) -> Option<Vec<Vec<Expr>>> {
+        let by_inputs = self.transfer_of_inputs(g)?;
+        let s = g.symbol_expr(s(g));
+        let of = |row: &[Expr], name: &String| {
+            let terms = self.inputs.iter().zip(row).filter_map(|(input, &e)| {
+                let primes = input.strip_prefix(name.as_str())?;
+                let order = primes.chars().all(|c| c == '\'').then_some(primes.len())?;
+                Some(g.mul(&[g.powi(s, order as i64), e]))
+            });
+            closed(g, g.add(&terms.collect::<Vec<Expr>>()))
+        };
+        let controls = self.controls();
+        let row = |row: &Vec<Expr>| controls.iter().map(|name| of(row, name)).collect();
+        Some(by_inputs.iter().map(row).collect())
+    }
+
+    fn transfer_of_inputs(&self, g: &Graph) -> Option<Vec<Vec<Expr>>> {
         let n = self.states.len();
         if n > LARGEST {
             return None;

@@ -38,6 +38,24 @@ impl Decimals {
         }
     }
 
+    /// A complex number that is known to an error: parts that are larger are no zeros, however small they are.
+    pub(crate) fn known(self, (re, im): (f64, f64), error: f64) -> String {
+        let part = |x: f64| {
+            let is_hidden = self.is_usual() && self.plain(x) == 0.0 && x.abs() > error;
+            is_hidden.then(|| format!("{x:.2e}"))
+        };
+        match (part(re), part(im.abs())) {
+            (None, None) => self.complex((re, im)),
+            (real, _) if im == 0.0 => real.unwrap_or_default(),
+            (real, imaginary) => {
+                let sign = if im < 0.0 { '-' } else { '+' };
+                let real = real.unwrap_or_else(|| self.text(self.plain(re)));
+                let imaginary = imaginary.unwrap_or_else(|| self.text(im.abs()));
+                format!("{real}{sign}{imaginary}i")
+            }
+        }
+    }
+
     /// A complex number as it is typeset: `−0.33 + 2.1 i`.
     pub(crate) fn typeset(self, (re, im): (f64, f64)) -> String {
         let (re, im) = (self.plain(re), self.plain(im));
@@ -119,6 +137,14 @@ mod tests {
         assert_eq!(own.typeset((0.001, 0.0)), "0.00");
         let own = Decimals::of([(-2e-20, 3e-20)]).with_places(1);
         assert_eq!(own.typeset((-2e-20, 3e-20)), "−2.0e−20 + 3.0e−20 i");
+    }
+
+    #[test]
+    fn small_numbers_beside_large_ones() {
+        let own = Decimals::of([(1.0, 0.0)]);
+        assert_eq!(own.known((1e-9, 0.0), 1e-14), "1.00e-9");
+        assert_eq!(own.known((-1e-9, -2.0), 1e-14), "-1.00e-9-2.000000i");
+        assert_eq!(own.known((1e-16, -2.0), 1e-14), "0.000000-2.000000i");
     }
 
     #[test]

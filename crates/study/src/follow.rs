@@ -25,6 +25,7 @@ use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
 use chetaev_orbits::solution::solution;
+use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
 use chetaev_stability::guess::near;
 use chetaev_stability::problem::LinearizationError;
@@ -164,11 +165,18 @@ impl Begun<'_> {
         let period = period.map(|e| system.with_definitions(e));
         let start = flow.state(&self.point)?;
         let span = (range, pace(wanted)?);
-        let (branch, periods) = if wanted.orbit {
-            orbits(flow, &start, (parameter, period), (model, system), span)?
+        let units = Units::of(flow, &start);
+        let (own, start) = (flow.in_units(&units), units.packed(&start));
+        let found = if wanted.orbit {
+            orbits(&own, &start, (parameter, period), (model, system), span)
         } else {
-            (steady_motions(flow, &start, parameter, span)?, Vec::new())
+            steady_motions(&own, &start, parameter, span).map(|found| (found, Vec::new()))
         };
+        let (branch, periods) = found.map_err(|problem| match problem {
+            FollowError::Orbit(problem) => units.restored_error(problem).into(),
+            other => other,
+        })?;
+        let branch = units.restored(branch, wanted.orbit);
         let symbols = system.coordinates.iter();
         let ignorable = symbols.filter(|c| !flow.variables.contains(&c.q_symbol));
         Ok(Followed {
@@ -291,12 +299,13 @@ fn orbits(
 ) -> Result<(Branch, Vec<f64>), FollowError> {
     let mut equations = Shooting::new(flow, parameter, period)?;
     let value = |s: Symbol| flow.place(s).map(|place| flow.parameters[place].1);
+    let rate = flow.units.rate;
     let given = match period {
-        Some(e) => Some(guess(flow, e)?),
+        Some(e) => Some(guess(flow, e)? * rate),
         None => None,
     };
     let p = parameter.and_then(value).unwrap_or(0.0);
-    let end = crate::start::settings(model, system, 0.0, &StudyOptions::default())?.t_end;
+    let end = crate::start::settings(model, system, 0.0, &StudyOptions::default())?.t_end * rate;
     let mut near = |start: &[f64]| {
         let guess = given.map_or_else(|| period_guess(flow, start, end), Ok)?;
         let unknowns = equations.unknowns(start, guess);
@@ -312,7 +321,8 @@ fn orbits(
     };
     let period = |own: &Point| equations.period(&own.unknowns, own.parameter);
     let periods: Result<Vec<(f64, f64)>, OrbitError> = found.points.iter().map(period).collect();
-    Ok((found, periods?.into_iter().map(|own| own.0).collect()))
+    let periods = periods?.into_iter().map(|own| own.0 / rate);
+    Ok((found, periods.collect()))
 }
 
 /// The value of a period.

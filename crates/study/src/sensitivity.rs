@@ -137,6 +137,15 @@ impl AlongMotion {
             self.name,
             self.variables.join(", ")
         );
+        let left_out = self.rows.first();
+        let left_out = left_out.map_or(0, |own| own.admitted.nrows() - own.admitted.ncols());
+        if left_out > 0 {
+            let _ = writeln!(
+                text,
+                "Finite constraints bind these variables; exponents are those of the {} directions that are admissible.",
+                self.variables.len() - left_out
+            );
+        }
         let start = self.rows.first().map_or(0.0, |own| own.t);
         for own in &self.rows {
             let state: Vec<String> = own.state.iter().map(|x| format!("{x:.6}")).collect();

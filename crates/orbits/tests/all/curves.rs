@@ -10,7 +10,9 @@ use crate::points;
 use chetaev_orbits::branch::{Branch, End, Kind};
 use chetaev_orbits::continuation::{follow, Pace};
 use chetaev_orbits::equilibria::Equilibria;
+use chetaev_orbits::hopf::{first_lyapunov, WithoutLyapunov};
 use chetaev_orbits::solution::solution;
+use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
 
 /// The steady motions of a flow from one near a state, over a range of a parameter.
@@ -500,6 +502,77 @@ fn two_folds_within_one_step() {
                 (at / (2.0 * (e / 3.0).powf(1.5)) - 1.0).abs() < 1e-5,
                 "{e}: {at}"
             );
+        }
+    }
+}
+
+/// The flow of a model in its own units near a state, with the state in them.
+fn in_units(flow: &Flow, state: &[f64]) -> (Flow, Vec<f64>, Units) {
+    let units = Units::of(flow, state);
+    (flow.in_units(&units), units.packed(state), units)
+}
+
+/// x'' = −k² x + k p x' − k x² x' is x'' = −x + p x' − x² x' in the time k t: with the eigenvector (1, i k)/√(1 + k²) its coefficient is −1/2/(1 + k²),
+/// from atoms to planets, beside a motion that dies away slowly too.
+#[test]
+fn the_first_lyapunov_coefficient_at_all_rates() {
+    for k in [1e-15, 1e-7, 1e-4, 1.0, 1e5, 1e6, 1e15_f64] {
+        let (flow, _) = flow(
+            &format!(
+                "coordinates = [\"x\", \"y\"]\nparameters = {{ k = {k:e} }}\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\n[forces]\n\
+                 x = \"-k^2 x - k x^2 x'\"\ny = \"-k y' - k^2 y/10^4\"\n"
+            ),
+            &[("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)],
+        );
+        let (flow, state, units) = in_units(&flow, &[0.0; 4]);
+        let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
+        let slopes = flow.slopes(&state, &parameters).unwrap();
+        let found = first_lyapunov(&flow, (&state, &parameters), (&slopes, 0)).unwrap();
+        is_close(found.frequency * units.rate / k, 1.0, 1e-12);
+        is_close(found.coefficient * (1.0 + k * k), -0.5, 1e-9);
+    }
+}
+
+/// A zero eigenvalue beside the pair belongs to no family: y' = −y² stands still at y = 0 alone.
+#[test]
+fn a_zero_beside_a_pair_is_no_family_by_itself() {
+    let (flow, _) = flow(
+        "coordinates = [\"x\", \"y\"]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\n[forces]\nx = \"-x - x^2 x'\"\ny = \"-y' - y^2\"\n",
+        &[("x", 0.0), ("y", 0.0), ("x'", 0.0), ("y'", 0.0)],
+    );
+    let slopes = flow.slopes(&[0.0; 4], &[]).unwrap();
+    let found = first_lyapunov(&flow, (&[0.0; 4], &[]), (&slopes, 0));
+    assert_eq!(
+        found,
+        Err(WithoutLyapunov::Zeros {
+            zeros: 1,
+            levels: 0
+        })
+    );
+}
+
+/// x'' = p − (x/l)² − x' stands still at x = ± l √p, and the curve turns at p = 0 alone.
+#[test]
+fn a_fold_at_all_lengths() {
+    for l in [1e-10, 1.0, 1e9_f64] {
+        let (flow, _) = flow(
+            &format!(
+                "coordinates = [\"x\"]\nparameters = {{ p = 1, l = {l:e} }}\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"p - x^2/l^2 - x'\"\n"
+            ),
+            &[("x", l), ("x'", 0.0)],
+        );
+        let (own, state, units) = in_units(&flow, &[l, 0.0]);
+        let found = curve(&own, "p", (&state, 1.0), (-1.0, 2.0), Pace::default());
+        let found = units.restored(found, false);
+        assert_eq!(found.special.len(), 1, "{l}: {:?}", found.special);
+        assert_eq!(found.special[0].kind, Kind::Fold);
+        assert!(found.special[0].point.parameter.abs() < 1e-9);
+        for point in &found.points {
+            let (p, x) = (point.parameter, point.unknowns[0]);
+            is_close(x * x / (l * l), p, 1e-9);
+            // λ² + λ + 2 x/l² = 0.
+            let sum: f64 = point.spectrum.values.iter().map(|l| l.re).sum();
+            is_close(sum, -1.0, 1e-9);
         }
     }
 }

@@ -7,12 +7,16 @@
 
 use crate::common::{flow, is_close, system};
 use crate::points;
+use chetaev_integrate::Output;
+use chetaev_orbits::along::along;
 use chetaev_orbits::branch::{End, Kind};
 use chetaev_orbits::continuation::follow;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{period_guess, Shooting};
 use chetaev_orbits::solution::solution;
+use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
+use nalgebra::DMatrix;
 
 /// Kapitza's pendulum stands upright above Ω = 99.260834704…, where the leading order says √(2 g l)/a = 99.0454 (−4 g/(l Ω²) = a₀(2 a/l), McLachlan
 /// 1947): a multiplier passes 1 there.
@@ -200,4 +204,67 @@ fn orbits_shrink_to_rest() {
     let first = &found.points[0];
     assert!(first.parameter.abs() < 1e-6 && first.unknowns[0].abs() < 1e-2);
     assert!(found.points.iter().all(|own| own.unknowns[0] > 0.0));
+}
+
+/// The orbit of van der Pol at μ = 1 has the period 6.663286859… (Urabe 1958) over the rate k, and one multiplier, 8.596951e-4, at every rate and length.
+#[test]
+fn one_orbit_at_all_rates_and_lengths() {
+    for (k, l) in [
+        (1.0, 1.0),
+        (1e-7, 1.0),
+        (1e6, 1.0),
+        (1e-7, 1e11),
+        (1e13, 1e-10_f64),
+    ] {
+        let (flow, _) = flow(
+            &format!(
+                "coordinates = [\"x\"]\nparameters = {{ k = {k:e}, l = {l:e} }}\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"-k^2 x + k (1 - x^2/l^2) x'\"\n"
+            ),
+            &[("x", 2.0 * l), ("x'", 0.0)],
+        );
+        let start = [2.0 * l, 0.0];
+        let units = Units::of(&flow, &start);
+        let (flow, start) = (flow.in_units(&units), units.packed(&start));
+        let mut orbits = Shooting::new(&flow, None, None).unwrap();
+        let period = period_guess(&flow, &start, 20.0 / k * units.rate).unwrap();
+        let unknowns = orbits.unknowns(&start, period);
+        let (found, _) = solution(&mut orbits, &unknowns, 0.0).unwrap();
+        is_close(found.unknowns[2] / units.rate * k, 6.663_286_859_323, 1e-9);
+        is_close(found.spectrum.values[0].re / 8.596_951e-4, 1.0, 1e-6);
+    }
+}
+
+/// The exponents of a pendulum in Cartesian coordinates are those of admissible neighbours: two, as in the angle.
+#[test]
+fn exponents_are_those_of_admissible_motions() {
+    let (system, prepared) = system(
+        "coordinates = [\"x\", \"y\"]\n[lagrangian]\nL = \"1/2 (x'^2 + y'^2) - 9.81 y\"\n[constraints]\nrod = \"x^2 + y^2 = 1\"\n",
+    );
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let flow = Flow::in_all_velocities(&system, terms, selection, Coordinates::All).unwrap();
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let rows = along(&flow, &[sin, -cos, 0.0, 0.0], (0.0, 1.5), Output::End).unwrap();
+    let exponents = rows.last().unwrap().exponents(0.0).unwrap();
+    assert_eq!(exponents.len(), 2);
+    // A flow that keeps areas: the exponents add up to zero but for the lengths of the vectors of both ends, that of the end with its rate.
+    let of_angle = {
+        let (flow, _) = crate::common::flow(
+            "coordinates = [\"th\"]\n[lagrangian]\nL = \"1/2 th'^2 + 9.81 cos(th)\"\n",
+            &[("th", 0.4), ("th'", 0.0)],
+        );
+        along(&flow, &[0.4, 0.0], (0.0, 1.5), Output::End).unwrap()
+    };
+    // (x, y, x', y') from (θ, θ'): columns of length (1 + θ'²)^½ and 1, not orthogonal where θ' ≠ 0.
+    let (end, rate) = (of_angle.last().unwrap(), of_angle.last().unwrap().state[1]);
+    let lift = |th: f64, v: f64| {
+        let (s, c) = th.sin_cos();
+        DMatrix::from_row_slice(4, 2, &[c, 0.0, s, 0.0, -s * v, c, c * v, s])
+    };
+    let image = lift(end.state[0], rate) * &end.transition;
+    let gram = image.tr_mul(&image).symmetric_eigenvalues();
+    let mut expected: Vec<f64> = gram.iter().map(|l| l.ln() / 2.0 / 1.5).collect();
+    expected.sort_by(|a, b| b.total_cmp(a));
+    for (own, wanted) in exponents.iter().zip(expected) {
+        is_close(*own, wanted, 1e-9);
+    }
 }

@@ -306,6 +306,7 @@ fn how(crossing: Crossing) -> &'static str {
         Crossing::Pair => "a pair passes the imaginary axis",
         Crossing::Pairs => "several pairs are on the imaginary axis at once",
         Crossing::Infinity => "an eigenvalue goes to infinity",
+        Crossing::Singular => "the mass matrix is singular",
         Crossing::Collision => "two imaginary pairs meet",
         Crossing::Touching => "two eigenvalues are opposite",
     }

@@ -2,12 +2,10 @@
 
 use super::stated::refused;
 use crate::left_out::is_pole;
-use crate::problem::LinearizationError;
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_set::{all_of, Sought};
 use crate::steady_value::SteadySetError;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_mechanics::System;
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Graph, Verdict};
@@ -93,24 +91,12 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
                 Verdict::undecided(said)
             }
         }
-        // The time may stand in a constraint alone, so that no claim on L says it.
-        Ok(Err(SteadySetError::System(problem))) => match *problem {
-            LinearizationError::NotAutonomous if !has_time(system) => Verdict::undecided(
-                "the equations contain the time explicitly, and where they are solved for all times alike was not asked",
-            ),
-            other => refused(other),
-        },
+        Ok(Err(SteadySetError::System(problem))) => refused(system, *problem),
         Ok(Err(problem)) => Verdict::undecided(problem.to_string()),
         Err(_) => Verdict::undecided(format!(
             "their equations were not solved within the work of {SECONDS} s; `chetaev steady` has no such limit"
         )),
     }
-}
-
-/// Whether the time stands in L.
-fn has_time(system: &System) -> bool {
-    let g = &system.graph;
-    g.contains_any(system.lagrangian, &[g.intern_symbol("t", 0)])
 }
 
 /// For which values of parameters, and for which states.

@@ -6,6 +6,7 @@ use crate::evidence::motions;
 use crate::problem::LinearizationError;
 use crate::question::Question;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::System;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::Verdict;
 
@@ -53,7 +54,7 @@ impl Claim for Stated {
                 }
                 .into()
             }
-            Some(Err(problem)) => refused(problem).into(),
+            Some(Err(problem)) => refused(cx.system, problem).into(),
             None => Verdict::undecided("the model names no such steady motion").into(),
         }
     }
@@ -85,8 +86,14 @@ fn steadiness(question: &Question) -> String {
     )
 }
 
+/// Whether the time stands in L.
+fn has_time(system: &System) -> bool {
+    let g = &system.graph;
+    g.contains_any(system.lagrangian, &[g.intern_symbol("t", 0)])
+}
+
 /// What a motion that is not admissible or not steady comes to.
-pub(super) fn refused(problem: LinearizationError) -> Verdict {
+pub(super) fn refused(system: &System, problem: LinearizationError) -> Verdict {
     let sentence = problem.to_string();
     match problem {
         LinearizationError::NotAdmissible {
@@ -112,7 +119,8 @@ pub(super) fn refused(problem: LinearizationError) -> Verdict {
         LinearizationError::OrderTooHigh { .. } => {
             Verdict::not_applicable("model.constraints-first-order", sentence)
         }
-        LinearizationError::NotAutonomous => {
+        // The time may stand in forces alone, so that no claim on L or on constraints says it.
+        LinearizationError::NotAutonomous if has_time(system) => {
             Verdict::not_applicable("model.lagrangian-autonomous", sentence)
         }
         _ => Verdict::undecided(sentence),

@@ -211,11 +211,22 @@ th = "atan(a/g)"
     assert_eq!(case.said("steady.stated", "tilt"), "proved");
 }
 
-/// With sin p in the place of the stiffness the values at which it vanishes are not enumerated: only the value that is stated is spoken of.
+/// With sin p in the place of the stiffness the values at which it vanishes are not enumerated: only the value that is stated is spoken of, and that
+/// others make it false is not said.
 #[test]
 fn what_is_decided_for_one_value_says_so() {
     let case = oscillator("1", "L = \"1/2 x'^2 - 1/2 sin(p) x^2\"", "-x'");
-    assert_eq!(case.said("stability.asymptotic", "s"), "p = 1");
+    match case.verdict("stability.asymptotic", "s") {
+        Verdict::Proved(proof) => assert!(proof.on.ends_with("that are stated, p = 1")),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A border that is a fraction belongs to where the statement fails, and is written as one: at p = 1/3 the eigenvalues are ± i.
+#[test]
+fn fractions_are_borders_as_they_are() {
+    let case = oscillator("\"1/3\"", "L = \"1/2 x'^2 - 1/2 x^2\"", "-(p - 1/3) x'");
+    assert_eq!(case.said("stability.asymptotic", "s"), "p > 1/3");
 }
 
 /// m y'' = −2 y − y' has one eigenvalue only where m = 0, and no acceleration.

@@ -3,14 +3,14 @@
 use super::Followed;
 use crate::decimals::{of_state, real, Decimals};
 use chetaev_orbits::branch::{End, Kind, Point, Special};
-use chetaev_stability::eigenvalues::Complex;
+use chetaev_orbits::multipliers::Spectrum;
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
 /// Rows of the table.
 const ROWS: usize = 12;
-/// How far from the axis, in parts of the largest eigenvalue, or from the circle is not on it.
-const ON_AXIS: f64 = 1e-7;
+/// Multipliers nearer to the circle may be on it.
+const ON_CIRCLE: f64 = 1e-7;
 
 impl Followed {
     /// What was found in words.
@@ -133,7 +133,8 @@ impl Followed {
                 frequency,
                 first_lyapunov: Err(why),
             } => format!(
-                "Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; {why}"
+                "Hopf point: a pair passes the imaginary axis with frequency {}; {why}",
+                real(frequency, 9)
             ),
             Kind::PeriodDoubling => "period doubling: a multiplier passes -1".into(),
             Kind::Torus { angle } => {
@@ -154,11 +155,21 @@ impl Followed {
         let period = self
             .periods
             .get(at)
-            .map_or(String::new(), |t| format!("  period {t:.9}"));
+            .map_or(String::new(), |t| format!("  period {}", real(*t, 9)));
         let own = point.spectrum.values.iter();
         let own: Vec<(f64, f64)> = own.map(|l| (l.re, l.im)).collect();
         let decimals = Decimals::of(own.iter().copied());
-        let own: Vec<String> = own.into_iter().map(|l| decimals.complex(l)).collect();
+        // A multiplier that is smaller than its error has no digit.
+        let known = own.into_iter().zip(&point.spectrum.errors);
+        let own: Vec<String> = known
+            .map(|(l, &error)| {
+                if self.is_orbit && l.0.hypot(l.1) < error {
+                    format!("below {error:.0e}")
+                } else {
+                    decimals.known(l, error)
+                }
+            })
+            .collect();
         let word = if self.is_orbit {
             "multipliers"
         } else {
@@ -182,10 +193,10 @@ impl Followed {
         if values.is_empty() {
             "all by structure"
         } else if self.is_orbit {
-            let beyond = values.iter().map(|l| l.norm() - 1.0);
-            border(beyond.fold(f64::NEG_INFINITY, f64::max))
+            let beyond = values.iter().map(|l| (l.norm() - 1.0, ON_CIRCLE));
+            border(&beyond.collect::<Vec<_>>())
         } else {
-            where_eigenvalues_lie(values)
+            where_eigenvalues_lie(&point.spectrum)
         }
     }
 
@@ -197,6 +208,7 @@ impl Followed {
                 "value": own.parameter,
                 "state": own.unknowns[..self.variables.len()],
                 "eigenvalues": pairs.collect::<Vec<_>>(),
+                "errors": own.spectrum.errors,
                 "stability": self.stability(own),
             })
         };
@@ -251,33 +263,34 @@ impl Followed {
     }
 }
 
-/// What eigenvalues say that structure does not give: where they lie, in parts of the largest.
-pub(crate) fn where_eigenvalues_lie(values: &[Complex<f64>]) -> &'static str {
-    let sizes = values.iter().map(|l| l.norm());
-    let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
-    let beyond = values.iter().map(|l| l.re / size);
-    border(beyond.fold(f64::NEG_INFINITY, f64::max))
+/// What eigenvalues say that structure does not give: on which side of the axis they lie for certain.
+pub(crate) fn where_eigenvalues_lie(spectrum: &Spectrum) -> &'static str {
+    let all = spectrum.values.iter().zip(&spectrum.errors);
+    border(&all.map(|(l, &error)| (l.re, error)).collect::<Vec<_>>())
 }
 
-fn border(beyond: f64) -> &'static str {
-    match beyond {
-        x if x < -ON_AXIS => "stable",
-        x if x > ON_AXIS => "unstable",
-        _ => "linearly on the border",
+/// By how far values are beyond a border, each with its error.
+fn border(all: &[(f64, f64)]) -> &'static str {
+    if all.iter().any(|(beyond, error)| beyond > error) {
+        "unstable"
+    } else if all.iter().all(|(beyond, error)| *beyond < -error) {
+        "stable"
+    } else {
+        "linearly on the border"
     }
 }
 
 /// A Hopf point with what is born there.
 pub(crate) fn hopf(frequency: f64, coefficient: f64) -> String {
     if coefficient == 0.0 {
-        return format!("Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; the first Lyapunov coefficient vanishes to rounding, and decides nothing of orbits");
+        return format!("Hopf point: a pair passes the imaginary axis with frequency {}; the first Lyapunov coefficient vanishes to rounding, and decides nothing of orbits", real(frequency, 9));
     }
     let kind = if coefficient < 0.0 {
         "supercritical"
     } else {
         "subcritical"
     };
-    format!("Hopf point: a pair passes the imaginary axis with frequency {frequency:.9}; the first Lyapunov coefficient is {coefficient:.9}: {kind}")
+    format!("Hopf point: a pair passes the imaginary axis with frequency {}; the first Lyapunov coefficient is {}: {kind}", real(frequency, 9), real(coefficient, 9))
 }
 
 fn word(kind: Kind) -> &'static str {

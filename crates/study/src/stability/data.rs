@@ -187,6 +187,7 @@ impl Stability {
             Crossing::Pairs => "pairs",
             Crossing::Collision => "collision",
             Crossing::Infinity => "infinity",
+            Crossing::Singular => "singular",
             Crossing::Touching => "touching",
         };
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);

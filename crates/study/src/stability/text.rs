@@ -90,7 +90,7 @@ impl Stability {
             .iter()
             .zip(space.transfer(g).unwrap_or_default())
         {
-            for (input, e) in space.inputs.iter().zip(row) {
+            for (input, e) in space.controls().iter().zip(row) {
                 let _ = writeln!(text, "  {output}/{input} = {}", shown(g, e));
             }
         }
@@ -376,6 +376,9 @@ impl Stability {
             Crossing::Pairs => "several pairs of eigenvalues are on the imaginary axis at once",
             Crossing::Collision => "two pairs of eigenvalues meet",
             Crossing::Infinity => "an eigenvalue goes to infinity",
+            Crossing::Singular => {
+                "the mass matrix is singular there: the equations determine no accelerations"
+            }
             Crossing::Touching => {
                 "two eigenvalues are opposite, and nothing is said of that value alone"
             }

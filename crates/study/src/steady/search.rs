@@ -364,9 +364,11 @@ impl Search {
             if own.family > 0 {
                 let _ = writeln!(text, "       one of a family of dimension {}", own.family);
             }
-            let spectrum = &own.point.spectrum.values;
+            let point = &own.point;
+            let spectrum = &point.spectrum.values;
             let decimals = Decimals::of(spectrum.iter().map(|l| (l.re, l.im)));
-            let eigenvalues = spectrum.iter().map(|l| decimals.complex((l.re, l.im)));
+            let known = spectrum.iter().zip(&point.spectrum.errors);
+            let eigenvalues = known.map(|(l, &error)| decimals.known((l.re, l.im), error));
             let eigenvalues: Vec<String> = eigenvalues.collect();
             let _ = match eigenvalues.as_slice() {
                 [] => writeln!(text, "       no eigenvalues but those that structure gives"),
@@ -374,7 +376,7 @@ impl Search {
                     text,
                     "       eigenvalues {}: {}",
                     own.join("  "),
-                    where_eigenvalues_lie(spectrum)
+                    where_eigenvalues_lie(&point.spectrum)
                 ),
             };
         }
@@ -408,7 +410,7 @@ impl Search {
                 "values": values.collect::<Vec<_>>(),
                 "singular": own.singular.map(Singular::text),
                 "eigenvalues": is_regular.then(|| eigenvalues.collect::<Vec<_>>()),
-                "stability": is_regular.then(|| where_eigenvalues_lie(spectrum)),
+                "stability": is_regular.then(|| where_eigenvalues_lie(&own.point.spectrum)),
             })
         };
         json!({
