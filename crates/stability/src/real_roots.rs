@@ -7,7 +7,7 @@ use crate::isolation::{isolated, Enclosed, Look, Root};
 use crate::steady::closed;
 use chetaev_symbolic::factors::{coefficients, factors};
 use chetaev_symbolic::number::ball::{Ball, Precision};
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
@@ -73,12 +73,88 @@ pub(crate) fn zeros_of_factors(
     };
     let mut found = Vec::new();
     for factor in parts {
-        let roots = Function::new(g, factor, symbol).roots(low, high, halvings)?;
+        let roots = match (low >= &RBig::ZERO).then(|| in_its_root(g, factor, symbol)) {
+            Some(Some(own)) => own.roots((low, high), halvings)?,
+            _ => Function::new(g, factor, symbol).roots(low, high, halvings)?,
+        };
         found.extend(roots.into_iter().map(|root| Zero { root, factor }));
     }
     found.sort_by(|a, b| a.root.low.cmp(&b.root.low));
     found.dedup();
     Some(found)
+}
+
+/// A function of a number that is not negative, in which roots of it occur, as one of the root r with p = r^k: where p^(1/2) has no slope, at
+/// zero, r has one.
+struct InItsRoot<'g> {
+    graph: &'g Graph,
+    value: Expr,
+    root: Symbol,
+    k: isize,
+}
+
+/// `None` where no root of the number itself occurs.
+fn in_its_root(g: &Graph, e: Expr, symbol: Symbol) -> Option<InItsRoot<'_>> {
+    let own = g.symbol_expr(symbol);
+    let powers = g
+        .reachable(&[e])
+        .into_iter()
+        .filter_map(|part| match g.node(part) {
+            Node::Power { base, exponent } if *base == own => {
+                let exponent = g.as_number(*exponent)?;
+                Some((part, exponent.clone()))
+            }
+            _ => None,
+        });
+    let powers: Vec<(Expr, RBig)> = powers.collect();
+    let parts = powers
+        .iter()
+        .map(|own| isize::try_from(own.1.denominator()).ok());
+    let parts: Vec<isize> = parts.collect::<Option<_>>()?;
+    let serves = |k: &isize| parts.iter().all(|part| k % part == 0);
+    let k = (1..=LARGEST_ROOT).find(serves).filter(|&k| k > 1)?;
+    // No name of a model contains a space.
+    let root = g.intern_symbol(&format!("root of {}", g.symbol_text(symbol)), 0);
+    let power = |exponent: &RBig| {
+        let exponent = exponent * RBig::from(k);
+        g.pow(g.symbol_expr(root), g.number(exponent))
+    };
+    let mut pairs: Vec<(Expr, Expr)> = powers.iter().map(|(e, n)| (*e, power(n))).collect();
+    pairs.push((own, power(&RBig::ONE)));
+    let value = g.substitute_all(&[e], &pairs)[0];
+    Some(InItsRoot {
+        graph: g,
+        value,
+        root,
+        k,
+    })
+}
+
+/// Higher roots are not looked at.
+const LARGEST_ROOT: isize = 12;
+
+impl InItsRoot<'_> {
+    fn roots(&self, (low, high): (&RBig, &RBig), halvings: usize) -> Option<Vec<Root>> {
+        let power = |at: &RBig| at.pow(self.k);
+        // The range of the root, rounded outwards.
+        let mut upper = RBig::ONE;
+        while &power(&upper) < high {
+            upper *= RBig::from(2);
+        }
+        let zeros = zeros_of_factors(
+            self.graph,
+            self.value,
+            self.root,
+            (&RBig::ZERO, &upper),
+            halvings,
+        )?;
+        let roots = zeros.into_iter().map(|own| Root {
+            low: power(&own.root.low),
+            high: power(&own.root.high),
+        });
+        let inside = |own: &Root| &own.high >= low && &own.low <= high;
+        Some(roots.filter(inside).collect())
+    }
 }
 
 /// The sign of `e` at a value of `symbol`; `None` where it is not decided.

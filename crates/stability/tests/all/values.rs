@@ -450,3 +450,26 @@ fn ends_and_single_values_belong_to_what_holds_there() {
     let turned = damped("\"p >= 0\"", "1/2 (x^2 + y^2)", ["-x' + p y", "-y' - p x"]);
     assert_eq!(turned.said("stability.asymptotic", "s"), "0 <= p < 1");
 }
+
+/// Roots of the parameter have no slope at zero, and the borders are found from there on all the same: √p = 1, p^(3/2) = 2, p^(1/3) = 1/2.
+#[test]
+fn borders_of_roots_of_the_parameter() {
+    for (root, border) in [
+        ("sqrt(p) - 1", 1.0),
+        ("p^(3/2) - 2", 2.0_f64.powf(2.0 / 3.0)),
+        ("p^(1/3) - 1/2", 0.125),
+    ] {
+        let case = oscillator("1", "L = \"1/2 x'^2 - 1/2 x^2\"", &format!("-({root}) x'"));
+        let linear = case.linear(&case.system.steady[0], "p").unwrap();
+        let found = case.ranges(&linear, "p", 0, 2);
+        assert_eq!(found.boundaries.len(), 1, "{root}: {found:?}");
+        let at = &found.boundaries[0].root;
+        let [low, high] = [&at.low, &at.high].map(|end| end.to_f64().value());
+        assert!(
+            (low - border).abs() < 1e-15 && (high - border).abs() < 1e-15,
+            "{root}: {low} {high}"
+        );
+        let stable: Vec<bool> = found.regions.iter().map(|own| own.is_left).collect();
+        assert_eq!(stable, [false, true], "{root}");
+    }
+}
