@@ -263,6 +263,16 @@ impl Flow {
         })
     }
 
+    /// The variables that are neither coordinates nor velocities of one, as texts: `speed along x' y' = x' cos(phi) + y' sin(phi)`.
+    pub fn defined(&self) -> Vec<String> {
+        let g = &self.graph;
+        let own = self.names.iter().zip(&self.definitions);
+        own.map(|(name, &e)| (name, g.text(e)))
+            .filter(|(name, text)| *name != text)
+            .map(|(name, text)| format!("{name} = {text}"))
+            .collect()
+    }
+
     /// The symbol of the time.
     pub fn time(&self) -> Symbol {
         self.graph.intern_symbol("t", 0)

@@ -101,6 +101,8 @@ pub struct Followed {
     pub about: String,
     /// Names of the variables; of orbits those of their starts.
     pub variables: Vec<String>,
+    /// What variables are that are neither coordinates nor velocities.
+    pub defined: Vec<String>,
     /// Coordinates on which nothing depends.
     pub ignorable: Vec<String>,
     /// Whether it is a curve of orbits.
@@ -181,6 +183,7 @@ impl Begun<'_> {
         let ignorable = symbols.filter(|c| !flow.variables.contains(&c.q_symbol));
         Ok(Followed {
             ignorable: ignorable.map(|c| c.name.clone()).collect(),
+            defined: flow.defined(),
             name: system.name.clone(),
             about: self.about.clone(),
             variables: flow.names.clone(),

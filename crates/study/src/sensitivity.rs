@@ -89,6 +89,8 @@ pub struct AlongMotion {
     pub name: String,
     /// Names of the variables.
     pub variables: Vec<String>,
+    /// What those are that are neither coordinates nor velocities.
+    pub defined: Vec<String>,
     /// One for each time.
     pub rows: Vec<Along>,
 }
@@ -113,6 +115,7 @@ pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
         Ok(AlongMotion {
             rows: along(&flow, &start, (t, end), output)?,
             name: system.name.clone(),
+            defined: flow.defined(),
             variables: flow.names,
         })
     };
@@ -137,6 +140,9 @@ impl AlongMotion {
             self.name,
             self.variables.join(", ")
         );
+        for defined in &self.defined {
+            let _ = writeln!(text, "{defined}");
+        }
         let left_out = self.rows.first();
         let left_out = left_out.map_or(0, |own| own.admitted.nrows() - own.admitted.ncols());
         if left_out > 0 {

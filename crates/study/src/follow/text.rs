@@ -38,6 +38,9 @@ impl Followed {
                 self.ignorable.join(", ")
             );
         }
+        for defined in &self.defined {
+            let _ = writeln!(text, "{defined}");
+        }
         self.structure(&mut text);
         for special in &self.branch.special {
             let _ = writeln!(text, "{}", self.special_text(special));
@@ -248,6 +251,7 @@ impl Followed {
             "parameter": self.range.as_ref().map(|range| range.name.clone()),
             "variables": self.variables,
             "ignorable": self.ignorable,
+            "defined": self.defined,
             "family": self.branch.family,
             "trivial": first.map(|own| own.spectrum.trivial.clone()),
             "points": points.collect::<Vec<_>>(),
