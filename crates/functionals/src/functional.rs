@@ -221,6 +221,21 @@ impl Functional {
         self.fields.iter().filter(|field| field.on.is_none())
     }
 
+    /// The names of the variables on which data depend, where these are not all.
+    pub fn variables_of(&self, field: &Field) -> Option<Vec<&str>> {
+        let space = &*self.space;
+        let varies = |axis: usize| {
+            let mut own = field.components.iter();
+            own.any(|&component| space.varies_along(component, axis))
+        };
+        let all = space.coordinates.iter().enumerate();
+        let own: Vec<&str> = all
+            .filter(|(axis, _)| varies(*axis))
+            .map(|(_, c)| c.name.as_str())
+            .collect();
+        (own.len() < space.coordinates.len()).then_some(own)
+    }
+
     /// The piece of a name.
     pub fn piece(&self, name: &str) -> Option<&Piece> {
         self.pieces.iter().find(|piece| piece.name == name)

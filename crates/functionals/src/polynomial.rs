@@ -2,8 +2,11 @@
 
 use crate::functional::{Interval, Side};
 use crate::space::Space;
-use chetaev_symbolic::{rational, Expr, Node, Rational};
+use chetaev_symbolic::{meter, rational, Expr, Node, Rational};
 use std::collections::BTreeMap;
+
+/// Units of work for a product of two terms.
+const STEP: u64 = 20;
 
 /// Exponents with coefficients; none is zero.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -163,6 +166,7 @@ impl Polynomial {
     /// The product.
     #[must_use]
     pub fn times(&self, other: &Polynomial) -> Polynomial {
+        meter::spend(STEP * (self.0.len() * other.0.len()) as u64);
         let mut found = BTreeMap::new();
         for (a, x) in &self.0 {
             for (b, y) in &other.0 {
@@ -218,6 +222,7 @@ impl Polynomial {
 
     /// The integral over a box or a face; variables that do not run are zero.
     pub fn integral(&self, domain: &Domain) -> Rational {
+        meter::spend(STEP * (self.0.len() * (1 + domain.intervals.len())) as u64);
         let mut sum = Rational::ZERO;
         for (exponents, value) in &self.0 {
             let mut own = value.clone();

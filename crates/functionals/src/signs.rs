@@ -6,7 +6,7 @@
 use crate::polynomial::Polynomial;
 use crate::space::Space;
 use chetaev_symbolic::number::ball::{Ball, Precision};
-use chetaev_symbolic::{rational, Expr, Rational};
+use chetaev_symbolic::{meter, rational, Expr, Rational};
 use std::cmp::Ordering;
 
 /// The sign of a function on a closed interval.
@@ -33,6 +33,9 @@ impl Sign {
 
 /// Most parts on which a function is enclosed.
 const MOST_PARTS: usize = 4_000;
+
+/// Units of work for a product and a difference of rational numbers.
+const STEP: u64 = 20;
 
 /// Bits of the enclosures.
 const BITS: usize = 80;
@@ -88,6 +91,7 @@ fn divided(p: &[Rational], by: &[Rational]) -> (Coefficients, Coefficients) {
         let Some(last) = rest.last() else { break };
         let factor = last / leading;
         let shift = rest.len() - by.len();
+        meter::spend(STEP * by.len() as u64);
         for (own, c) in rest[shift..].iter_mut().zip(by) {
             *own = &*own - &rational::product(&factor, c);
         }

@@ -136,6 +136,17 @@ impl<'s> Region<'s> {
         }
     }
 
+    /// Whether a comparison with zero is known to be false somewhere in the region.
+    pub(crate) fn contradicts(&self, e: Expr, relation: Relation) -> bool {
+        let opposite = || self.space.graph.neg(e);
+        let guard = match relation {
+            Relation::Less => (opposite(), Relation::Greater),
+            Relation::LessOrEqual => (opposite(), Relation::GreaterOrEqual),
+            Relation::Greater | Relation::GreaterOrEqual | Relation::NotEqual => (e, relation),
+        };
+        self.holds(guard) == Some(false)
+    }
+
     /// Whether a guard fails at a probe, or between two of them: the region is connected, so that what has both signs is zero between.
     fn is_violated(&self, e: Expr, relation: Relation) -> bool {
         let signs: Vec<SignSet> = self

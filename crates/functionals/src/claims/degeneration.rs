@@ -52,7 +52,7 @@ impl Claim for Degeneration {
         });
         match found {
             Some((functional, other, values)) => {
-                if let Some(unfit) = unfit(functional, values) {
+                if let Some(unfit) = unfit(functional, values, &functional.intervals) {
                     return unfit.into();
                 }
                 let told: Vec<&str> = values.iter().map(|v| v.written.as_str()).collect();

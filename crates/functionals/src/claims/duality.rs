@@ -1,13 +1,16 @@
 //! `functional.duality`: two functionals add up to a divergence, and to nothing with their boundary terms.
 
+use super::flux;
 use super::modulo::{equations, labels, other_body, vanishing, vanishing_difference, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::Group;
 use crate::functional::{Functional, Relation, Role, Side};
 use crate::read::on_side;
+use crate::space::Space;
 use crate::variation::euler_expression;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
+use std::collections::BTreeSet;
 
 /// `functional.duality#NAME`.
 pub(super) struct Duality;
@@ -22,10 +25,12 @@ impl Claim for Duality {
     }
 
     fn explanation(&self) -> &'static str {
-        "The sum of the two densities of the interior is a divergence if its Euler expressions vanish identically. With a stated flux W \
+        "The sum of the two densities of the interior is a divergence if its Euler expressions vanish identically. A flux W of it is stated, or \
+         found where the sum is a polynomial in the fields (by parts along the way from zero to these, H. Poincaré's lemma). With the flux W \
          the sum is proved to be D_i W_i, and on every piece n_i W_i and the two boundary densities must add up to zero, which makes the \
          sum of the functionals zero for all fields that both admit. Where it vanishes on a piece only because of field equations, or as a \
-         product of two conditions, the verdict names the fewest that are needed."
+         product of two conditions, the verdict names the fewest that are needed. A flux that was found is one of many: where it does not cancel \
+         on a piece the claim is refuted only where no other one does, which is so where what is left depends on values of fields alone."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -55,41 +60,97 @@ impl Claim for Duality {
             return verdict.into();
         }
         match found {
-            Some((own, other, Some((written, flux)))) => with_flux(own, other, written, flux),
-            Some((own, other, None)) => without_flux(own, other).into(),
+            Some((own, other, Some((written, flux)))) => {
+                let flux = Flux {
+                    written: written.clone(),
+                    components: flux.clone(),
+                    is_stated: true,
+                };
+                with_flux(own, other, &flux)
+            }
+            Some((own, other, None)) => without_flux(own, other),
             None => Verdict::undecided("no dual functional is stated").into(),
         }
     }
 }
 
-fn without_flux(functional: &Functional, other: &Functional) -> Verdict {
+/// A vector whose divergence the sum of two densities is.
+struct Flux {
+    written: String,
+    components: Vec<Expr>,
+    /// Whether it was stated, and not found.
+    is_stated: bool,
+}
+
+fn without_flux(functional: &Functional, other: &Functional) -> Finding {
     let space = &*functional.space;
     let sum = space.graph.add(&[functional.density, other.density]);
     let jets = space.jets_in(&[sum]);
-    let mut components: Vec<usize> = jets.into_iter().map(|jet| jet.component).collect();
-    components.dedup();
-    let own: Vec<Expr> = components
-        .iter()
-        .map(|&c| euler_expression(space, sum, c))
-        .collect();
-    match space.vanishing(&own, true) {
-        Verdict::Proved(proof) => Verdict::Proved(Proof {
+    let components: BTreeSet<usize> = jets.into_iter().map(|jet| jet.component).collect();
+    // What depends on some variables only need not have a vanishing Euler expression, as `∫ q x dx` shows with a number q.
+    let (free, bound): (Vec<usize>, Vec<usize>) = components
+        .into_iter()
+        .partition(|&component| space.varies_everywhere(component));
+    let of = |all: &[usize]| -> Vec<Expr> {
+        let own = all.iter();
+        own.map(|&component| euler_expression(space, sum, component))
+            .collect()
+    };
+    let proof = match space.vanishing(&of(&free), true) {
+        Verdict::Proved(proof) if space.vanish(&of(&bound)) => proof,
+        Verdict::Proved(_) => {
+            return Verdict::undecided(
+                "whether the sum of the densities is a divergence was not decided, as it contains data of some variables only",
+            )
+            .into()
+        }
+        verdict => return verdict.prefixed("the sum of the densities is not a divergence").into(),
+    };
+    if let Some(components) = flux::of(space, sum) {
+        let texts = components.iter().map(|&e| space.graph.text(e));
+        let flux = Flux {
+            written: format!("({})", texts.collect::<Vec<_>>().join(", ")),
+            components,
+            is_stated: false,
+        };
+        return with_flux(functional, other, &flux);
+    }
+    Verdict::Conditional {
+        condition: "its flux through the boundary and the densities there cancel".into(),
+        proof: Proof {
             on: "all fields".into(),
             detail: format!(
-                "the sum of the densities of {} and {} has no Euler expression, so that it is a divergence; the boundary was not compared, as no flux is stated",
+                "the sum of the densities of {} and {} has no Euler expression, so that it is a divergence; no flux is stated, and none was found",
                 functional.name, other.name
             ),
             ..proof
-        }),
-        verdict => verdict.prefixed("the sum of the densities is not a divergence"),
+        },
+        counterexample: None,
     }
+    .into()
 }
 
-fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &[Expr]) -> Finding {
+/// What is known where a flux that was found and boundary densities do not cancel on a piece. Another flux of the same divergence differs from it
+/// by what is no function of values of fields alone, and a constant at one end may be taken off at another.
+fn not_cancelled(space: &Space, flux: &Flux, sum: Expr, verdict: Verdict) -> Verdict {
+    let jets = space.jets_in(&[sum]);
+    let is_of_values = !jets.is_empty() && jets.iter().all(|jet| jet.by.is_empty());
+    if flux.is_stated || is_of_values || !matches!(verdict, Verdict::Refuted(_)) {
+        return verdict;
+    }
+    Verdict::undecided("no flux is stated, and with another one than that which was found they may")
+}
+
+fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Finding {
+    let Flux {
+        written,
+        components: through,
+        ..
+    } = flux;
     let space = &*functional.space;
     let g = &space.graph;
     let mut terms = vec![functional.density, other.density];
-    for (axis, &w) in flux.iter().enumerate() {
+    for (axis, &w) in through.iter().enumerate() {
         terms.push(g.neg(space.total(w, axis)));
     }
     let mut notes = Vec::new();
@@ -114,18 +175,17 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
             return Verdict::undecided(format!("`{}` has no piece {}", other.name, piece.name))
                 .into();
         };
-        let through = match piece.side {
+        let mut terms: Vec<Expr> = match piece.side {
             Side::Curved => {
-                let own = space.normal().into_iter().zip(flux);
+                let own = space.normal().into_iter().zip(through);
                 own.map(|(n, &w)| g.mul(&[n, w])).collect()
             }
-            Side::Flat { axis, is_upper, .. } => match flux.get(axis) {
+            Side::Flat { axis, is_upper, .. } => match through.get(axis) {
                 Some(&w) if is_upper => vec![w],
                 Some(&w) => vec![g.neg(w)],
                 None => Vec::new(),
             },
         };
-        let mut terms: Vec<Expr> = through;
         terms.extend([piece.density, dual.density]);
         let sum = on_side(&functional.scope, &piece.side, g.add(&terms));
         match on_piece(functional, other, &piece.name, sum) {
@@ -142,7 +202,8 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
                     "on {} the flux and the boundary densities do not cancel",
                     piece.name
                 );
-                return (*verdict).prefixed(&what).into();
+                let verdict = not_cancelled(space, flux, sum, *verdict);
+                return verdict.prefixed(&what).into();
             }
         }
     }

@@ -7,6 +7,7 @@ mod degeneration;
 mod descent;
 mod duality;
 mod euler;
+mod flux;
 mod legendre;
 mod modulo;
 mod multipliers;

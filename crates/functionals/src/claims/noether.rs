@@ -694,11 +694,8 @@ fn on_solutions(
             "all solutions",
             format!("the defect of {words} is itself a divergence, as its Euler expressions vanish: the current without it has none"),
         )),
-        Verdict::Refuted(found) if solved.left.is_empty() => Verdict::Refuted(found).prefixed(
-            &format!("the current of {words} has a divergence, the defect shown"),
-        ),
-        Verdict::Refuted(_) => Verdict::undecided(format!(
-            "the defect of {words} does not vanish identically, and the Euler equations could not be solved"
+        Verdict::Refuted(found) => Verdict::Refuted(found).prefixed(&format!(
+            "the current of {words} has a divergence, the defect shown"
         )),
         other => other,
     }

@@ -47,7 +47,7 @@ impl Claim for Ritz {
             written: String::new(),
             what: SpecialKind::Symbols(asked.values.clone()),
         };
-        if let Some(unfit) = unfit(cx.functional(), &[special]) {
+        if let Some(unfit) = unfit(cx.functional(), &[special], &cx.functional().intervals) {
             return unfit.into();
         }
         let mut all = Vec::new();

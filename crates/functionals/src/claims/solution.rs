@@ -10,8 +10,7 @@ use crate::read::on_side;
 use crate::smoothness::{guards, Guard, Region};
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::zero::assumptions::{is_contradicted, Assumptions, Relation};
-use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
 use chetaev_symbolic::{rational, Expr, Verdict};
 
 /// `functional.solution#NAME`.
@@ -49,7 +48,7 @@ impl Claim for Stated {
         let own = all.find(|solution| Some(solution.name.as_str()) == subject);
         match (own, &cx.variation) {
             (Some(own), Ok(variation)) => {
-                if let Some(unfit) = unfit(cx.functional(), &own.values) {
+                if let Some(unfit) = unfit(cx.functional(), &own.values, &own.intervals) {
                     return unfit.into();
                 }
                 match on_box(cx.functional(), own) {
@@ -100,12 +99,6 @@ impl<'f> Inserted<'f> {
             return Verdict::undecided(format!(
                 "the stated value of {name} needs itself, so that it is none"
             ));
-        }
-        if let Some(violated) = self.violated() {
-            return Verdict::not_applicable(
-                "assumptions",
-                format!("the stated fields violate what the model assumes, {violated}"),
-            );
         }
         if let Some((what, where_rough)) = self.rough() {
             return Verdict::undecided(format!(
@@ -163,19 +156,6 @@ impl<'f> Inserted<'f> {
             }
         }
         found
-    }
-
-    /// Something that the model assumes and that is false for the stated fields.
-    fn violated(&self) -> Option<String> {
-        let g = &self.functional.space.graph;
-        let all = self.functional.space.assumptions();
-        let own = all.list().iter().find(|own| {
-            let difference = self.at(g.sub(own.left, own.right));
-            let sign = known_sign(g, difference, &self.inside());
-            is_contradicted(own.relation, sign)
-        })?;
-        let (left, right) = (g.text(own.left), g.text(own.right));
-        Some(format!("{left} {} {right}", own.relation.symbol()))
     }
 
     /// What may not be smooth on the body, its boundary included: a stated field, or a density at the stated fields; and why.

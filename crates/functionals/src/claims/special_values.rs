@@ -1,15 +1,24 @@
 //! Special values of parameters, fields and constitutive functions, put in for what they replace.
 
-use crate::functional::{Constitutive, Functional, Special, SpecialKind};
+use crate::functional::{Constitutive, Functional, Interval, Special, SpecialKind};
+use crate::smoothness::Region;
 use crate::space::{not_sought, Space};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::BTreeSet;
 
 /// Why special values are none of this functional: another value is stated for a parameter or a function, or functions are put in for
-/// conjugates that are none of each other.
-pub(super) fn unfit(functional: &Functional, values: &[Special]) -> Option<Verdict> {
+/// conjugates that are none of each other, or they violate on a box what the model assumes.
+pub(super) fn unfit(
+    functional: &Functional,
+    values: &[Special],
+    intervals: &[Interval],
+) -> Option<Verdict> {
     if let Some(stated) = stated_otherwise(functional, values) {
         return Some(Verdict::not_applicable("parameters", stated));
+    }
+    if let Some(violated) = violated(functional, values, intervals) {
+        let said = format!("the stated values violate what the model assumes, {violated}");
+        return Some(Verdict::not_applicable("assumptions", said));
     }
     let space = &*functional.space;
     let all: Vec<(usize, Expr)> = functions(values).collect();
@@ -34,6 +43,30 @@ pub(super) fn unfit(functional: &Functional, values: &[Special]) -> Option<Verdi
     })
 }
 
+/// Something that the model assumes and that is false for special values, somewhere inside of a box.
+fn violated(functional: &Functional, values: &[Special], intervals: &[Interval]) -> Option<String> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    // So many at most stand between a value and what it needs.
+    let put =
+        |e: Expr| (0..=values.len()).fold(space.explicit(e), |e, _| put_in(functional, values, e));
+    let box_of_values = intervals.iter().map(|own| Interval {
+        axis: own.axis,
+        lower: put(own.lower),
+        upper: put(own.upper),
+    });
+    let region = Region::new(space, box_of_values.collect(), false);
+    let all = space.assumptions();
+    let own = all.list().iter().find(|own| {
+        let before = space.explicit(g.sub(own.left, own.right));
+        let after = put(before);
+        // What is not touched is no matter of the values.
+        after != before && region.contradicts(after, own.relation)
+    })?;
+    let (left, right) = (g.text(own.left), g.text(own.right));
+    Some(format!("{left} {} {right}", own.relation.symbol()))
+}
+
 /// A value that is stated, and is another than the one that is to be put in.
 fn stated_otherwise(functional: &Functional, values: &[Special]) -> Option<String> {
     let space = &*functional.space;
@@ -46,7 +79,10 @@ fn stated_otherwise(functional: &Functional, values: &[Special]) -> Option<Strin
     let mut other = pairs.filter_map(|(symbol, special)| {
         let (_, value) = stated.iter().find(|(own, _)| own == symbol)?;
         let differs = !g.is_zero(g.sub(*value, *special));
-        differs.then(|| format!("{} = {} is stated", g.text(*symbol), g.text(*value)))
+        differs.then(|| {
+            let (name, value) = (g.text(*symbol), g.text(*value));
+            format!("{name} = {value} is stated, and only what has no stated value can be given another one here")
+        })
     });
     other.next().or_else(|| {
         let mut all = functions(values);

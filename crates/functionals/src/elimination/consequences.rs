@@ -1,8 +1,8 @@
 //! What solved equations say besides: that nothing satisfies them, what they ask of data, which cases there are, and what they leave free.
 
 use super::solver::base;
+use super::strata::Stratum;
 use super::Solved;
-use crate::functional::Side;
 use crate::space::{Jet, Space};
 use chetaev_symbolic::factors::factors_within;
 use chetaev_symbolic::polynomial::Budget;
@@ -63,16 +63,16 @@ impl<'s> Solved<'s> {
     fn impossible(&self) -> Option<(String, Expr)> {
         self.left.iter().find_map(|group| {
             let mut own = group.equations.iter().copied();
-            let found = own.find(|&e| self.never_holds(e))?;
+            let found = own.find(|&e| self.never_holds(e, group.stratum))?;
             Some((group.label.clone(), found))
         })
     }
 
     /// Whether an expression is known to vanish nowhere, or not to vanish identically although nothing but the place occurs in it.
-    fn never_holds(&self, e: Expr) -> bool {
+    fn never_holds(&self, e: Expr, stratum: Stratum) -> bool {
         let space = self.space;
         let g = &space.graph;
-        let e = self.placed(space.explicit(e));
+        let e = self.placed(space.explicit(e), stratum);
         if space.sign(e).is_nonzero() || self.has_no_zero_factor(e) {
             return true;
         }
@@ -82,7 +82,7 @@ impl<'s> Solved<'s> {
                 .iter()
                 .any(|c| g.as_symbol(c.expr) == Some(symbol))
         };
-        let is_curved = self.place == Some(Side::Curved);
+        let is_curved = self.is_curved(stratum);
         let is_of_place = g.symbols_in(&[e]).into_iter().all(is_place);
         !is_curved && is_of_place && matches!(space.vanishing(&[e], true), Verdict::Refuted(_))
     }
@@ -100,14 +100,14 @@ impl<'s> Solved<'s> {
     }
 
     /// On a face the variable across it has its value.
-    pub(super) fn placed(&self, e: Expr) -> Expr {
+    pub(super) fn placed(&self, e: Expr, stratum: Stratum) -> Expr {
         let g = &self.space.graph;
         self.space.replace(e, &|symbol| {
-            let is_own = |(axis, _): &&(usize, Expr)| {
+            let is_own = |(axis, _): &(usize, Expr)| {
                 let own = self.space.coordinates.get(*axis);
                 own.is_some_and(|c| g.as_symbol(c.expr) == Some(symbol))
             };
-            self.constant.iter().find(is_own).map(|(_, at)| *at)
+            self.constant_on(stratum).find(is_own).map(|(_, at)| at)
         })
     }
 
@@ -229,7 +229,8 @@ impl<'s> Solved<'s> {
             let own = Jet { component, by };
             let value = self.normal(space.jet(component, &[]));
             let mut others = space.jets_in(&[value]).into_iter();
-            self.rule(&own).is_some() && others.all(|jet| !components.contains(&jet.component))
+            self.rule(&own, self.everywhere()).is_some()
+                && others.all(|jet| !components.contains(&jet.component))
         };
         let components: Vec<usize> = components
             .iter()

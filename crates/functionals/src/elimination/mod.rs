@@ -16,18 +16,23 @@
 //! A product is not solved: it vanishes where one of its factors does, and on open sets that are dense together one factor does
 //! identically, so that each is a case of its own ([`Solved::cases`]).
 //!
+//! An equation of a face is solved with those of the body and of the face alone, so that its rules may be differentiated along it; what
+//! follows from two faces together holds where they meet (`strata`).
+//!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
 mod consequences;
 mod ranking;
 mod solver;
+mod strata;
 
 pub(crate) use self::consequences::factors_of;
 
 use self::ranking::Ranking;
+use self::strata::{Face, Stratum};
 use crate::functional::Side;
-use crate::space::{rest, Component, Jet, Space};
+use crate::space::{rest, Jet, Space};
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation};
@@ -49,16 +54,39 @@ pub struct Group {
     pub equations: Vec<Expr>,
 }
 
+/// Equations that are not solved, and where they hold.
+#[derive(Clone, Debug)]
+pub struct Open {
+    /// What they are called.
+    pub label: String,
+    /// Expressions that vanish.
+    pub equations: Vec<Expr>,
+    stratum: Stratum,
+}
+
+impl Open {
+    fn of(group: Group, stratum: Stratum) -> Open {
+        let Group { label, equations } = group;
+        Open {
+            label,
+            equations,
+            stratum,
+        }
+    }
+}
+
 /// Equations solved as far as possible.
 #[derive(Clone, Debug)]
 pub struct Solved<'s> {
     space: &'s Space,
     rules: Vec<Rule>,
     adopted: Vec<Adopted>,
-    place: Option<Side>,
-    /// Variables that are constant where the equations hold, with their values.
-    constant: Vec<(usize, Expr)>,
-    is_corner: bool,
+    /// The faces on which equations hold.
+    faces: Vec<Face>,
+    /// Where new equations hold.
+    stratum: Stratum,
+    /// Whether equations are looked at where faces meet, although they hold elsewhere too.
+    is_narrowed: bool,
     preferred: BTreeSet<String>,
     /// Expressions that are not negative, as is known besides: a counterexample keeps to them.
     nonnegative: Vec<Expr>,
@@ -70,7 +98,8 @@ pub struct Solved<'s> {
     is_cut: bool,
     /// With further conditions, once they were asked for; nothing where they are too much work.
     prolonged: RefCell<Option<Option<Rc<Solved<'s>>>>>,
-    known: RefCell<BTreeMap<Jet, Expr>>,
+    /// Values of jets on strata.
+    known: RefCell<BTreeMap<(Stratum, Jet), Expr>>,
     /// The jets whose values are being computed, each for that of the one before.
     open: RefCell<Vec<Jet>>,
     /// In which every rule gives a jet by lower ones; none where there is no such ranking.
@@ -84,7 +113,7 @@ pub struct Solved<'s> {
     /// Factors that vanish in the case at hand.
     pub case: Vec<Expr>,
     /// Equations that are left, with their labels.
-    pub left: Vec<Group>,
+    pub left: Vec<Open>,
     /// Matrices that were inverted and are no numbers.
     pub pivots: Vec<Pivot>,
     /// Functions undone by their conjugates.
@@ -120,40 +149,18 @@ pub enum Entries {
 struct Rule {
     jet: Jet,
     value: Expr,
-    reach: Reach,
+    /// Where it holds, and so by what it may be differentiated.
+    stratum: Stratum,
+    /// On a curved piece the value is continued by the distance times this component.
+    across: Option<usize>,
 }
 
 /// Equations that gave rules, with the first of these and what was divided by.
 #[derive(Clone, Debug)]
 struct Adopted {
     first_rule: usize,
-    label: String,
-    equations: Vec<Expr>,
+    equations: Open,
     divisor: Option<Expr>,
-}
-
-/// Where a rule holds, and so by what it may be differentiated.
-#[derive(Clone, Debug, PartialEq)]
-enum Reach {
-    /// In the interior, or wherever it is continued to: data and fields of a piece are continued off it as the rule says.
-    Everywhere,
-    /// On a face: by the other variables.
-    Face(usize),
-    /// On a curved piece: the value is continued by the distance times this component.
-    Piece(usize),
-    /// At a corner only.
-    Corner,
-}
-
-impl Reach {
-    /// Whether a rule may be differentiated so.
-    fn allows(&self, by: &[usize]) -> bool {
-        match self {
-            Reach::Everywhere | Reach::Piece(_) => true,
-            Reach::Face(axis) => !by.contains(axis),
-            Reach::Corner => by.is_empty(),
-        }
-    }
 }
 
 /// At so many points a factor between two equations is looked for.
@@ -175,9 +182,9 @@ impl<'s> Solved<'s> {
             space,
             rules: Vec::new(),
             adopted: Vec::new(),
-            place: None,
-            constant: Vec::new(),
-            is_corner: false,
+            faces: Vec::new(),
+            stratum: Stratum::default(),
+            is_narrowed: false,
             preferred: BTreeSet::new(),
             nonnegative: Vec::new(),
             crossed: BTreeSet::new(),
@@ -217,55 +224,36 @@ impl<'s> Solved<'s> {
     #[must_use]
     pub fn with_on(&self, side: &Side, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
-        own.place = Some(side.clone());
-        if let Side::Flat { axis, at, .. } = side {
-            own.constant.push((*axis, *at));
-        }
+        own.enter(side);
         own.with(groups)
     }
 
-    /// The same with more equations, which hold at a corner and may not be differentiated.
+    /// The same with more equations, which hold where all faces meet.
     #[must_use]
-    pub fn with_at_corner(&self, groups: &[Group]) -> Solved<'s> {
+    pub fn with_where_meeting(&self, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
-        own.is_corner = true;
+        own.enter_meeting();
         own.with(groups)
     }
 
-    /// Where a new rule for a jet holds. Data and fields of the boundary live on a piece only, so that they may be continued off it as
-    /// the rule says; of a field the derivative across the piece is not known.
-    fn reach(&self, jet: &Jet) -> Reach {
-        let component = self.space.component_at(jet.component);
-        match &self.place {
-            _ if self.is_corner => Reach::Corner,
-            None => Reach::Everywhere,
-            Some(_) if component.is_of_boundary => Reach::Everywhere,
-            Some(Side::Flat { axis, .. }) => Reach::Face(*axis),
-            Some(Side::Curved) => Reach::Piece(self.across(jet, &component)),
-        }
-    }
-
-    /// The component that the distance from the piece is multiplied with.
-    fn across(&self, jet: &Jet, of: &Component) -> usize {
-        let g = &self.space.graph;
-        let name = g.text(self.space.jet(jet.component, &jet.by));
-        let by: String = name.chars().skip_while(|c| *c != ',').collect();
-        self.space.component(Component {
-            name: format!("∂{name}/∂n"),
-            tensor: format!("∂{}{by}/∂n", of.tensor),
-            constant_along: Vec::new(),
-            ..of.clone()
-        })
+    /// The same with more equations, which hold at a single place and may not be differentiated.
+    #[must_use]
+    pub fn with_at_point(&self, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.enter_point();
+        own.with(groups)
     }
 
     /// The same with more equations.
     #[must_use]
     pub fn with(&self, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
-        own.left.extend(groups.iter().cloned());
+        let new = groups.iter().cloned();
+        own.left
+            .extend(new.map(|group| Open::of(group, self.stratum)));
         own.prolonged = RefCell::default();
         own.solve();
-        if own.place.is_some() {
+        if own.is_on_boundary() {
             // What was divided by in the interior may vanish on the boundary.
             own.take_back();
         }
@@ -274,7 +262,12 @@ impl<'s> Solved<'s> {
 
     /// An expression where the equations hold, and at the place where they do.
     pub fn here(&self, e: Expr) -> Expr {
-        self.placed(self.normal(e))
+        self.here_on(e, self.everywhere())
+    }
+
+    /// The same on a stratum, by what holds on all of it.
+    fn here_on(&self, e: Expr, stratum: Stratum) -> Expr {
+        self.placed(self.normal_on(e, stratum), stratum)
     }
 
     /// The order up to which conditions of integrability are looked at before something is refuted: two derivatives of the highest order
@@ -305,17 +298,21 @@ impl<'s> Solved<'s> {
 
     /// An expression where the equations hold: rules and their derivatives put in.
     pub fn normal(&self, e: Expr) -> Expr {
+        self.normal_on(e, self.everywhere())
+    }
+
+    fn normal_on(&self, e: Expr, stratum: Stratum) -> Expr {
         let mut e = e;
         // A function undone by its conjugate may bring back a jet that has a rule.
         for _ in 0..MOST_ROUNDS {
-            let ruled = |jet: &Jet| self.rule(jet).is_some();
+            let ruled = |jet: &Jet| self.rule(jet, stratum).is_some();
             if !self.space.jets_in(&[e]).iter().any(ruled) {
                 return e;
             }
             e = self.space.replace(e, &|symbol| {
                 let jet = self.space.as_jet(symbol)?;
-                self.rule(&jet)?;
-                Some(self.value(&jet))
+                self.rule(&jet, stratum)?;
+                Some(self.value(&jet, stratum))
             });
             if self.is_circular() {
                 return e;
@@ -324,35 +321,37 @@ impl<'s> Solved<'s> {
         e
     }
 
-    fn rule(&self, jet: &Jet) -> Option<(&Rule, Vec<usize>)> {
+    /// The rule that gives a jet on a stratum, and by what it is differentiated for that.
+    fn rule(&self, jet: &Jet, stratum: Stratum) -> Option<(&Rule, Vec<usize>)> {
         self.rules.iter().find_map(|rule| {
-            if rule.jet.component != jet.component {
+            if rule.jet.component != jet.component || !stratum.lies_in(rule.stratum) {
                 return None;
             }
             let rest = rest(&jet.by, &rule.jet.by)?;
-            rule.reach.allows(&rest).then_some((rule, rest))
+            self.may_differentiate(rule, &rest).then_some((rule, rest))
         })
     }
 
-    fn value(&self, jet: &Jet) -> Expr {
-        if let Some(&known) = self.known.borrow().get(jet) {
+    fn value(&self, jet: &Jet, stratum: Stratum) -> Expr {
+        let key = (stratum, jet.clone());
+        if let Some(&known) = self.known.borrow().get(&key) {
             return known;
         }
         let own = self.space.jet(jet.component, &jet.by);
-        let value = match self.rule(jet) {
+        let value = match self.rule(jet, stratum) {
             Some(_) if self.closes_circle(jet) => {
                 self.is_circular.set(true);
                 return own;
             }
             Some((rule, rest)) => {
                 self.open.borrow_mut().push(jet.clone());
-                let value = self.normal(self.derived(rule, &rest));
+                let value = self.normal_on(self.derived(rule, &rest), stratum);
                 self.open.borrow_mut().pop();
                 value
             }
             None => own,
         };
-        self.known.borrow_mut().insert(jet.clone(), value);
+        self.known.borrow_mut().insert(key, value);
         value
     }
 
@@ -374,8 +373,8 @@ impl<'s> Solved<'s> {
     fn derived(&self, rule: &Rule, by: &[usize]) -> Expr {
         let space = self.space;
         let own = space.totals(rule.value, by);
-        match rule.reach {
-            Reach::Piece(across) if !by.is_empty() => {
+        match rule.across {
+            Some(across) if !by.is_empty() => {
                 let moved = space.of_distance_times(space.jet(across, &[]), by);
                 space.graph.add(&[own, moved])
             }
@@ -384,7 +383,7 @@ impl<'s> Solved<'s> {
     }
 
     /// The next pair of rules that give the same derivative of a component: what each gives has to agree.
-    fn crossing(&mut self) -> Option<Group> {
+    fn crossing(&mut self) -> Option<Open> {
         for later in 0..self.rules.len() {
             for earlier in 0..later {
                 if self.crossed.contains(&(earlier, later)) {
@@ -396,7 +395,7 @@ impl<'s> Solved<'s> {
                     continue;
                 }
                 let (by_a, by_b) = (missing(&b.jet.by, &a.jet.by), missing(&a.jet.by, &b.jet.by));
-                if !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                if !self.may_differentiate(a, &by_a) || !self.may_differentiate(b, &by_b) {
                     continue;
                 }
                 // Where neither is a derivative of the other, what follows is of higher order than both.
@@ -412,9 +411,10 @@ impl<'s> Solved<'s> {
                 let g = &self.space.graph;
                 let difference = g.sub(self.derived(a, &by_a), self.derived(b, &by_b));
                 let name = self.space.component_at(a.jet.component).name;
-                return Some(Group {
+                return Some(Open {
                     label: format!("integrability of {name}"),
                     equations: vec![difference],
+                    stratum: a.stratum.meeting(b.stratum),
                 });
             }
         }
@@ -470,6 +470,12 @@ impl<'s> Solved<'s> {
         self.divisors.iter().any(has_jets) || self.pivots.iter().any(of_fields)
     }
 
+    /// The same in any case where an equation that is left is a product.
+    pub fn is_divided_by_jets_in_a_case(&self) -> bool {
+        let cases = self.cases().into_iter().flatten();
+        self.is_divided_by_jets() || cases.into_iter().any(|case| case.is_divided_by_jets())
+    }
+
     /// What the equations say beyond others: jets less their values, and what could not be solved.
     pub fn beyond(&self, others: &Solved<'_>) -> Vec<Expr> {
         let space = self.space;
@@ -498,7 +504,7 @@ impl<'s> Solved<'s> {
     }
 
     /// A group that is left by its label, and what is left of it where that is short.
-    pub fn named(&self, group: &Group) -> String {
+    pub fn named(&self, group: &Open) -> String {
         let texts = group.equations.iter().map(|&e| self.space.graph.text(e));
         let label = if group.label.starts_with("the ") {
             group.label.clone()
@@ -532,6 +538,10 @@ impl<'s> Solved<'s> {
                 "it is a multiple of an equation that holds, by a factor without fields",
             )),
             _ if self.is_circular() || !self.is_ranked() => circular(),
+            _ if self.is_narrowed => Verdict::undecided(
+                "it does not follow from the equations as they were solved; some could be solved only where the faces meet, without their \
+                 derivatives along these, so that no counterexample was confirmed",
+            ),
             _ => match self.contradicted(self.space.explicit(own)) {
                 Verdict::Refuted(found) => self.confirmed(e, found),
                 other => other,
@@ -578,7 +588,7 @@ impl<'s> Solved<'s> {
             .space
             .jets_in(&[own])
             .iter()
-            .all(|jet| full.rule(jet).is_none());
+            .all(|jet| full.rule(jet, full.everywhere()).is_none());
         if full.is_cut || full.left.len() > self.left.len() || !is_settled {
             return Verdict::undecided(format!(
                 "it does not follow from the equations and their conditions of integrability up to order {}; conditions beyond that, or such \
@@ -609,11 +619,13 @@ impl<'s> Solved<'s> {
     /// What is assumed, where the equations hold: a counterexample satisfies both.
     pub(super) fn assumed_here(&self) -> Assumptions {
         let space = self.space;
-        let here = |e: Expr| self.placed(space.on_plane(space.explicit(self.normal(e))));
+        let everywhere = self.everywhere();
+        let here =
+            |e: Expr| self.placed(space.on_plane(space.explicit(self.normal(e))), everywhere);
         let mut found = Assumptions::new();
         let is_across = |e: Expr| {
-            let mut constant = self.constant.iter();
-            constant.any(|(axis, _)| space.coordinates.get(*axis).is_some_and(|c| c.expr == e))
+            let mut constant = self.constant_on(everywhere);
+            constant.any(|(axis, _)| space.coordinates.get(axis).is_some_and(|c| c.expr == e))
         };
         for own in space.assumptions().list() {
             // On a face the variable across it is at the end of its interval, and not inside.

@@ -1,7 +1,7 @@
 //! Groups of equations solved one after the other: for which tensor, by which rows, and what is divided by.
 
 use super::ranking::Ranking;
-use super::{rest, Adopted, Entries, Group, Pivot, Rule, Solved, MOST_ROUNDS};
+use super::{rest, Adopted, Entries, Open, Pivot, Rule, Solved, MOST_ROUNDS};
 use crate::boundary::CURVATURE;
 use crate::space::Jet;
 use chetaev_symbolic::matrix::determinant;
@@ -62,7 +62,7 @@ impl Solved<'_> {
                 let parts = group
                     .equations
                     .iter()
-                    .flat_map(|&e| self.parts(self.here(e)));
+                    .flat_map(|&e| self.parts(self.here_on(e, group.stratum)));
                 group.equations = parts.map(|e| self.stripped(e)).collect();
                 group.equations.retain(|&e| !self.space.vanishes(e));
             }
@@ -224,7 +224,7 @@ impl Solved<'_> {
         for jet in self.space.jets_in(equations) {
             let component = self.space.component_at(jet.component);
             // Data of some variables alone say something of the others by their derivatives, which are zero and would be lost.
-            if component.tensor == CURVATURE || !component.constant_along.is_empty() {
+            if component.tensor == CURVATURE || !self.space.varies_everywhere(jet.component) {
                 continue;
             }
             let tensor = component.tensor;
@@ -456,20 +456,29 @@ impl Solved<'_> {
             self.note_divisors(&choice.matrix, &tensor);
         }
         let group = &self.left[choice.group];
+        let stratum = group.stratum;
         self.adopted.push(Adopted {
             first_rule: self.rules.len(),
-            label: group.label.clone(),
-            equations: choice
-                .rows
-                .iter()
-                .map(|&row| group.equations[row])
-                .collect(),
+            equations: Open {
+                label: group.label.clone(),
+                equations: choice
+                    .rows
+                    .iter()
+                    .map(|&row| group.equations[row])
+                    .collect(),
+                stratum,
+            },
             divisor: (choice.matrix.len() <= LARGEST_DETERMINANT)
                 .then(|| determinant(&self.space.graph, &choice.matrix)),
         });
         for (jet, value) in choice.jets.into_iter().zip(values) {
-            let reach = self.reach(&jet);
-            self.rules.push(Rule { jet, value, reach });
+            let across = self.across(&jet, stratum);
+            self.rules.push(Rule {
+                jet,
+                value,
+                stratum,
+                across,
+            });
         }
         self.ranking = self.ranking_with(Vec::new());
         self.known.borrow_mut().clear();
@@ -498,11 +507,10 @@ impl Solved<'_> {
             let taken = self.adopted.split_off(at);
             let first = taken.first().map_or(self.rules.len(), |own| own.first_rule);
             self.rules.truncate(first);
-            let groups = taken.into_iter().rev();
-            self.left.extend(groups.map(|own| Group {
-                label: own.label,
-                equations: own.equations,
-            }));
+            for mut own in taken.into_iter().rev().map(|own| own.equations) {
+                own.stratum = self.narrowed(own.stratum, self.everywhere());
+                self.left.push(own);
+            }
             self.crossed.clear();
             self.known.borrow_mut().clear();
             self.ranking = Some(Ranking::by_order(self.space));

@@ -11,6 +11,7 @@ use crate::tensors::Scope;
 use chetaev_model::raw::{Raw, Table};
 use chetaev_model::{joined, tables, Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::Span;
+use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -362,7 +363,32 @@ impl Reader<'_> {
             }
             pairs.insert(l, r);
         }
+        let varying = pairs
+            .iter()
+            .find_map(|(&l, &r)| Some((l, varying(functional, l, r)?)));
+        if let Some((own, axis)) = varying {
+            let name = &functional.space.coordinates[axis].name;
+            let own = g.text(own);
+            let message = format!("`{own}` does not depend on {name}, and this value of it does");
+            self.push(
+                Diagnostic::error("bad-special", text.place, message).hint(
+                    "a parameter is a number; data depend on all variables, or on those that `of` names",
+                ),
+            );
+            return None;
+        }
         let what = SpecialKind::Symbols(pairs.into_iter().collect());
         Some(Special { written, what })
     }
+}
+
+/// A variable on which a value depends, and what it is the value of does not.
+fn varying(functional: &Functional, own: Expr, value: Expr) -> Option<usize> {
+    let space = &*functional.space;
+    let component = space
+        .as_jet(space.graph.as_symbol(own)?)
+        .map(|jet| jet.component);
+    let varies = |axis: usize| component.is_some_and(|own| space.varies_along(own, axis));
+    let mut axes = (0..space.coordinates.len()).filter(|&axis| !varies(axis));
+    axes.find(|&axis| !space.vanish(&[space.total(value, axis)]))
 }

@@ -194,18 +194,26 @@ impl Space {
             .position(|own| own.name == name)
     }
 
+    /// Whether a component depends on an independent variable.
+    pub fn varies_along(&self, component: usize, axis: usize) -> bool {
+        let all = self.components.borrow();
+        !all[component].constant_along.contains(&axis)
+    }
+
+    /// Whether it depends on all of them: else what holds of it at one place holds of it at others.
+    pub fn varies_everywhere(&self, component: usize) -> bool {
+        let mut axes = 0..self.coordinates.len();
+        axes.all(|axis| self.varies_along(component, axis))
+    }
+
     /// The symbol of a jet; zero where the component does not depend on a variable.
     pub fn jet(&self, component: usize, by: &[usize]) -> Expr {
         let mut by = by.to_vec();
         by.sort_unstable();
-        let (name, is_constant) = {
-            let own = &self.components.borrow()[component];
-            let is_constant = by.iter().any(|axis| own.constant_along.contains(axis));
-            (own.name.clone(), is_constant)
-        };
-        if is_constant {
+        if !by.iter().all(|&axis| self.varies_along(component, axis)) {
             return self.graph.zero();
         }
+        let name = self.components.borrow()[component].name.clone();
         let suffix: String = by
             .iter()
             .map(|&i| self.coordinates[i].suffix.as_str())

@@ -1,5 +1,6 @@
 //! What a file assumes of fields and parameters: proofs use it and name it, and counterexamples keep to it.
 
+use crate::half_known::studied;
 use crate::table::{decided, read_text, studied_text};
 use chetaev_model::Style;
 
@@ -131,5 +132,53 @@ fn assumptions_that_say_nothing_or_are_false_are_refused() {
             said.contains(code) && said.contains(words),
             "{assumptions}:\n{said}"
         );
+    }
+}
+
+/// Values that are put in keep to what is assumed, whoever puts them in: else nothing is claimed.
+#[test]
+fn values_that_violate_an_assumption_are_none_of_the_model() {
+    let head = |density: &str, assumed: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"own\"\ndensity = \"{density}\"\nassumptions = [\"{assumed}\"]\n[domain]\n\
+             coordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n\
+             [parameters]\nk = {{}}\n[boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n"
+        )
+    };
+    let judged = |text: &str, claim: &str, is_fit: bool| {
+        // What it becomes assumes nothing, and has no k.
+        let other = text
+            .split("\n[")
+            .filter(|part| !part.starts_with("degenerations"));
+        let other = other.collect::<Vec<_>>().join("\n[");
+        let other = other.replace("+ k u^2", "").replace("\"own\"", "\"other\"");
+        let is_assumption = |line: &&str| !line.starts_with("assumptions");
+        let other: Vec<&str> = other.lines().filter(is_assumption).collect();
+        let study = studied(text, &other.join("\n"));
+        let verdict = decided(&study, claim);
+        let is_refused = verdict.detail().contains("violate what the model assumes");
+        assert_eq!(is_refused, !is_fit, "{claim}: {}", verdict.detail());
+        let is_applicable = verdict.word() != "not-applicable";
+        assert_eq!(is_applicable, is_fit, "{claim}: {}", verdict.detail());
+    };
+    for (assumed, is_fit) in [("k > 1", false), ("k < 1", true)] {
+        let at = "[degenerations.z]\nbecomes = \"other.toml\"\nat = { k = \"0\" }\n";
+        let text = head("1/2 u,x^2 + k u^2", assumed) + at;
+        judged(&text, "functional.degeneration", is_fit);
+    }
+    for (assumed, is_fit) in [("k > 0", false), ("k < 0", true)] {
+        let ritz = "[ritz]\ndegrees = [1, 2]\nvalues = { k = \"-1\", q = \"1\" }\n";
+        judged(
+            &(head("k u,x^2/2 - q u", assumed) + ritz),
+            "functional.ritz",
+            is_fit,
+        );
+    }
+    // q = x − 1/2 is negative on half of the interval.
+    for (assumed, is_fit) in [("q > 0", false), ("q > -1", true)] {
+        let fields = "[solutions.s.fields]\nu = \"-x^3/6 + x^2/4\"\nq = \"x - 1/2\"\n";
+        let text = head("u,x^2/2 - q u", assumed) + fields;
+        judged(&text, "functional.solution", is_fit);
+        judged(&text, "functional.second-variation", is_fit);
     }
 }

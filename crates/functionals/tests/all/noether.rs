@@ -331,3 +331,17 @@ fn a_defect_that_is_a_divergence_leaves_a_current() {
         assert_eq!(own, word, "{density}: {detail}");
     }
 }
+
+/// (r² u,i),i = 0 is a product with r, and is decided where r does not vanish: 1/2 r² u,i u,i is the same nowhere else.
+#[test]
+fn a_coefficient_that_is_given_is_no_obstacle() {
+    let text = "kind = \"functional\"\nname = \"r\"\ndensity = \"1/2 r^2 u,i u,i\"\nsymmetries = [\"translations\", \"rotations\"]\n\
+        [domain]\ncoordinates = [\"x\", \"y\"]\nboundary = [\"S\"]\n[fields]\nu = \"scalar\"\n[data]\nr = \"scalar\"\n[boundary]\nS = \"0\"\n";
+    let study = study(loaded_text("p4p", text, &[]), &|_| true, &|| 0.0);
+    let own = study
+        .verdicts
+        .iter()
+        .filter(|d| d.claim == "functional.noether");
+    let words: Vec<&str> = own.map(|d| d.finding.verdict.word()).collect();
+    assert_eq!(words, ["refuted"; 3]);
+}

@@ -270,3 +270,36 @@ fn values_that_are_imposed_belong_to_the_functional() {
     let clamped = beam(["{ fixed = [\"w\", \"w,n\"] }", FREE], slope, "\"h\"");
     descends("\"h\"", clamped, supported, ("proved", ""));
 }
+
+/// Two functionals that add up to zero inside do so as wholes only where the ends do, too.
+#[test]
+fn boundary_terms_are_compared_without_a_stated_flux() {
+    let dual = |density: &'static str, other: &'static str, ends: [&'static str; 2]| {
+        let own = Text {
+            ends,
+            more: "[duality]\nwith = \"other.toml\"\n",
+            ..Text::of(density, &["u", "v"])
+        };
+        let other = Text {
+            ends,
+            ..Text::of(other, &["u", "v"])
+        };
+        let study = studied(&own.written("own"), &other.written("other"));
+        let own = decided(&study, "functional.duality");
+        (own.word(), own.detail().to_owned())
+    };
+    // The sum is 14 u(0).
+    let (word, detail) = dual("u + u,x - u,x", "-u", ["\"7 u\"", FREE]);
+    assert_eq!(word, "refuted", "{detail}");
+    let (word, detail) = dual("u", "-u", [FREE, FREE]);
+    assert_eq!(word, "proved", "{detail}");
+    // (u v)' is u v at the ends, which −u v/2 and u v/2 in both functionals cancel.
+    let parts = ["u,x v", "u v,x"];
+    let (word, detail) = dual(parts[0], parts[1], ["\"u v/2\"", "\"-u v/2\""]);
+    assert_eq!(word, "proved", "{detail}");
+    let (word, detail) = dual(parts[0], parts[1], [FREE, FREE]);
+    assert_eq!(word, "refuted", "{detail}");
+    // A function of no polynomial form: its flux is not found.
+    let (word, detail) = dual("u,x cos(u)", "0 u", [FREE, FREE]);
+    assert_ne!(word, "proved", "{detail}");
+}

@@ -308,3 +308,44 @@ fn negative_values_are_found_where_first_squares_vanish() {
         ),
     ]);
 }
+
+/// With a small P a basis oscillates fast, and what refutes is found before it is followed: ∫ (P v'² − v²) is P/3 − 1/30 for v = x (1 − x).
+#[test]
+fn a_small_leading_coefficient_is_refuted_at_once() {
+    let start = std::time::Instant::now();
+    words(&[
+        ("1/10^20 u,x^2 - u^2", "1", [HELD, HELD], "refuted"),
+        // R is negative on a thousandth of the interval: the variation is zero elsewhere.
+        (
+            "1/10^20 u,x^2 + (x - 1/1000) u^2",
+            "1",
+            [HELD, HELD],
+            "refuted",
+        ),
+        (
+            "1/10^20 (u,x^2 + v,x^2) - u v",
+            "1",
+            [BOTH_HELD, BOTH_HELD],
+            "refuted",
+        ),
+    ]);
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+    let own = verdict("1/10^20 u,x^2 + (x - 1/1000) u^2", "1", [HELD, HELD]);
+    assert!(
+        own.detail().contains("outside of the part between"),
+        "{}",
+        own.detail()
+    );
+}
+
+/// u'⁴ at u = 0 has no second variation, which is positive for no variation.
+#[test]
+fn what_vanishes_is_not_positive() {
+    words(&[
+        ("1/4 u,x^4", "1", [HELD, HELD], "refuted"),
+        ("1/4 u,x^4", "1", [HELD, "\"u^2\""], "undecided"),
+    ]);
+    let own = verdict("1/2 (x - 1/2)^2 u,x^2", "1", [HELD, HELD]);
+    assert_eq!(own.word(), "proved");
+    assert!(!own.detail().contains("is positive"), "{}", own.detail());
+}

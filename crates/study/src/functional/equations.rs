@@ -1,6 +1,6 @@
 //! What people are shown of a functional: its equations with the variations that they belong to, in order, in words.
 
-use chetaev_functionals::functional::{Definition, Equation, Functional, Role, Side};
+use chetaev_functionals::functional::{Definition, Equation, Field, Functional, Role, Side};
 use chetaev_functionals::notation::{equations, Index, Kind, Node};
 use chetaev_functionals::tensors::Shape;
 use chetaev_functionals::variation::{Condition, Trace, Variation};
@@ -187,6 +187,15 @@ pub(super) fn kind(shape: Shape) -> &'static str {
         Shape::Symmetric => "symmetric tensor",
         Shape::Matrix => "tensor",
         other => other.word(),
+    }
+}
+
+/// On what data depend, where that is not every variable: ` of x`, or that they are constant.
+pub(super) fn dependence(functional: &Functional, field: &Field) -> String {
+    match functional.variables_of(field).as_deref() {
+        None => String::new(),
+        Some([]) => ", constant".to_owned(),
+        Some(all) => format!(" of {} only", all.join(", ")),
     }
 }
 

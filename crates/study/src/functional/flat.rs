@@ -82,6 +82,7 @@ fn functional(text: &mut String, prefix: &str, own: &Functional) {
             .map(|(name, n)| (name.clone(), n.to_string()))
             .collect(),
     );
+    let field = |of: &Field| field(own, of);
     section("fields", own.fields.iter().map(field).collect());
     section("data", own.data.iter().map(field).collect());
     section(
@@ -154,12 +155,14 @@ fn stated(entries: &[(&str, Option<&str>)]) -> String {
     inline(own)
 }
 
-fn field(own: &Field) -> (String, String) {
-    let on = own.on.as_deref();
-    (
-        own.name.clone(),
-        stated(&[("kind", Some(own.shape.word())), ("on", on)]),
-    )
+fn field(of: &Functional, own: &Field) -> (String, String) {
+    let kind = Some(("kind", quoted(own.shape.word())));
+    let on = own.on.as_deref().map(|on| ("on", quoted(on)));
+    let variables = of.variables_of(own);
+    let variables = variables.map(|all| ("of", array(all.into_iter().map(quoted))));
+    let entries = [kind, on, variables].into_iter().flatten();
+    let entries = entries.map(|(key, value)| (key.to_owned(), value));
+    (own.name.clone(), inline(entries))
 }
 
 fn parameter(own: &Functional, p: &Parameter) -> (String, String) {

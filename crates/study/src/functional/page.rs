@@ -1,8 +1,8 @@
 //! The report of a functional.
 
 use super::equations::{
-    absent, boundary, euler, given, head, in_order, indexed_euler, indexed_natural, joined, kind,
-    labels, number, used, Indexed, Shown,
+    absent, boundary, dependence, euler, given, head, in_order, indexed_euler, indexed_natural,
+    joined, kind, labels, number, used, Indexed, Shown,
 };
 use super::typesetting::{
     as_written, caption, field_name, formula, in_indices, in_print, vanishing, variation_name,
@@ -98,7 +98,10 @@ fn facts(f: &Functional) -> Vec<Fact> {
         Fact {
             note: Some(in_print(&field.description)).filter(|d| !d.is_empty()),
             formulas: vec![field_name(f, &name)],
-            ..fact(label, kind(field.shape).to_owned())
+            ..fact(
+                label,
+                format!("{}{}", kind(field.shape), dependence(f, field)),
+            )
         }
     };
     let mut found = Vec::new();

@@ -1,8 +1,8 @@
 //! The text for a terminal.
 
 use super::equations::{
-    absent, boundary, euler, given, in_order, indexed_euler, indexed_natural, joined, kind, used,
-    Indexed, Shown,
+    absent, boundary, dependence, euler, given, in_order, indexed_euler, indexed_natural, joined,
+    kind, used, Indexed, Shown,
 };
 use super::table;
 use crate::layout::{hanging, terms};
@@ -137,7 +137,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
         if d == 1 { "" } else { "s" }
     );
     for field in &f.fields {
-        line(text, "varied", &described(field));
+        line(text, "varied", &described(f, field));
     }
     text.push_str(&terms("  density       ", &f.written));
     for piece in f.pieces.iter().filter(|piece| piece.written != "0") {
@@ -148,7 +148,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
         text.push_str(&terms("  where         ", &formula));
     }
     for field in &f.data {
-        line(text, "given", &described(field));
+        line(text, "given", &described(f, field));
     }
     if let Some(values) = values(f) {
         line(text, "values", &values);
@@ -180,7 +180,7 @@ fn line(text: &mut String, label: &str, words: &str) {
 }
 
 /// A field in words: `u, a vector: displacement`.
-fn described(field: &Field) -> String {
+fn described(f: &Functional, field: &Field) -> String {
     let on = field.on.as_ref();
     let on = on.map_or(String::new(), |on| format!(" on {on}"));
     let colon = if field.description.is_empty() {
@@ -188,8 +188,8 @@ fn described(field: &Field) -> String {
     } else {
         ": "
     };
-    let (name, kind) = (&field.name, kind(field.shape));
-    format!("{name}, {kind}{on}{colon}{}", field.description)
+    let (name, kind, of) = (&field.name, kind(field.shape), dependence(f, field));
+    format!("{name}, {kind}{of}{on}{colon}{}", field.description)
 }
 
 fn stated(text: &mut String, study: &Study, style: Style) {

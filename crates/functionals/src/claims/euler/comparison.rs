@@ -180,10 +180,6 @@ impl<'f> Comparison<'f> {
             .iter()
             .filter(|c| is_here(&format!("{}, {}", c.pieces.0, c.pieces.1)))
             .collect();
-        let equations: Vec<&Equation> = functional
-            .with_role(Role::Yielded)
-            .filter(|e| e.on.as_deref().is_some_and(is_here))
-            .collect();
         let (mut derived, mut stated) = (self.derived.clone(), self.stated.clone());
         for name in [&pair.0, &pair.1] {
             let (Some(piece), Some(on)) = (
@@ -203,7 +199,6 @@ impl<'f> Comparison<'f> {
                 name,
             ));
         }
-        // At a corner nothing may be differentiated.
         let conditions: Vec<Group> = here
             .iter()
             .map(|c| Group {
@@ -211,15 +206,21 @@ impl<'f> Comparison<'f> {
                 equations: vec![c.value],
             })
             .collect();
-        let own: Vec<Group> = equations
-            .iter()
-            .map(|e| Group {
+        let with_role = |role: Role| {
+            let own = functional.with_role(role);
+            own.filter(|e| e.on.as_deref().is_some_and(is_here))
+        };
+        let groups_of = |role: Role| -> Vec<Group> {
+            let all = with_role(role).map(|e| Group {
                 label: e.label.clone(),
                 equations: e.residuals.clone(),
-            })
-            .collect();
-        derived = derived.with_at_corner(&conditions);
-        stated = stated.with_at_corner(&own);
+            });
+            all.collect()
+        };
+        let imposed = groups_of(Role::Imposed);
+        let equations: Vec<&Equation> = with_role(Role::Yielded).collect();
+        derived = derived.with_where_meeting(&[imposed.clone(), conditions].concat());
+        stated = stated.with_where_meeting(&[imposed, groups_of(Role::Yielded)].concat());
         if derived.contradiction().is_some() {
             self.contradicts_at_corner.set(true);
         }
@@ -296,11 +297,11 @@ impl<'f> Comparison<'f> {
         let carried = match system {
             System::Derived => {
                 let at_end: &AtEnd<'_, 'f> = &|on, piece| self.derived_on(on, piece);
-                self.is_carried(es, &self.derived, at_end)
+                self.is_carried(es, &self.derived, at_end, on)
             }
             System::Stated => {
                 let at_end: &AtEnd<'_, 'f> = &|on, piece| self.stated_on(on, piece);
-                self.is_carried(es, &self.stated, at_end)
+                self.is_carried(es, &self.stated, at_end, on)
             }
         };
         let (verdict, open) = if carried {

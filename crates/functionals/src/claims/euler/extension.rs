@@ -2,7 +2,7 @@
 //!
 //! Data may be chosen: an equation that alone contains one holds for any fields, with the data that it gives. Where each equation of the body does
 //! (a load in every equation of equilibrium), fields are bound by nothing but conditions at single places, and what holds at one
-//! place is continued anyhow; where each condition on the boundary does, nothing but the equations of the body restricts a jet. Conditions
+//! place is continued anyhow; where each condition on the boundary does, those where its pieces meet included, nothing but the equations of the body restricts a jet. Conditions
 //! without data (an end that is free, or on a spring) hold for few fields, and together they may enforce what no equation says at
 //! its place: u'' = 0 with u'(0) = 0 and u(1) = 0 leaves u = 0 alone.
 
@@ -11,6 +11,7 @@ use crate::elimination::{factors_of, Solved};
 use crate::functional::{Piece, Role, Side};
 use crate::smoothness::{guards, Guard, Region};
 use crate::space::{Jet, Space};
+use crate::variation::{acting_at_edge, at_edge};
 use chetaev_symbolic::zero::assumptions::{is_implied, Relation};
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
@@ -217,28 +218,65 @@ impl<'f> Comparison<'f> {
         if own.inside.iter().chain(own.conditions()).any(restricts) {
             return false;
         }
-        let found = self.is_apart_from_corners(&own)
-            && (self.is_local(system, &own) || self.is_continued(system, &own));
+        let found = self.is_local(system, &own) || self.is_continued(system, &own);
         self.extended.borrow_mut().insert(system, found);
         found
     }
 
+    /// The conditions of a system where two pieces meet.
+    fn where_meeting(&self, system: System) -> Vec<Expr> {
+        let functional = self.functional;
+        let stated = |role: Role| {
+            let own = functional.with_role(role);
+            let own = own.filter(|own| own.on.as_ref().is_some_and(|on| on.contains(',')));
+            own.flat_map(|own| own.residuals.iter().copied())
+        };
+        let mut found: Vec<Expr> = stated(Role::Imposed).collect();
+        match system {
+            System::Stated => found.extend(stated(Role::Yielded)),
+            System::Derived => {
+                let corners = self.variation.corners.iter();
+                found.extend(corners.map(|corner| corner.value));
+                found.extend(self.at_edges());
+            }
+        }
+        found.retain(|&e| !functional.space.vanishes(e));
+        found
+    }
+
+    /// What the first variation asks for where curved pieces meet.
+    fn at_edges(&self) -> Vec<Expr> {
+        let pieces = &self.variation.pieces;
+        if self.functional.space.dimensions() == 1 {
+            return Vec::new();
+        }
+        let pairs = pieces.iter().enumerate();
+        let pairs =
+            pairs.flat_map(|(at, one)| pieces[at + 1..].iter().map(move |other| (one, other)));
+        let all = pairs.flat_map(|(one, other)| {
+            let own = acting_at_edge(one, other).into_iter();
+            own.flat_map(|component| at_edge(self.functional, one, other, component))
+        });
+        all.collect()
+    }
+
     /// Whether what holds where two pieces meet does not matter at other places. In general it is carried along the pieces; where it holds at rest,
     /// and so do all conditions, fields that vanish but near one place satisfy it.
-    fn is_apart_from_corners(&self, own: &Whole) -> bool {
-        let equations = self.functional.equations.iter();
-        let stated = equations.filter(|own| own.on.as_ref().is_some_and(|on| on.contains(',')));
-        let stated: Vec<Expr> = stated
-            .flat_map(|own| own.residuals.iter().copied())
-            .collect();
-        if stated.is_empty() {
-            return true;
-        }
-        let derived = self.variation.corners.iter().map(|corner| corner.value);
-        let corners = stated.into_iter().chain(derived);
-        let conditions = own.conditions().map(|own| own.e);
-        let mut all = corners.chain(conditions);
-        all.all(|e| self.is_zero_at_rest(e))
+    fn is_apart_from_corners(&self, system: System, own: &Whole) -> bool {
+        let has_none = self.where_meeting(system).is_empty();
+        has_none || own.conditions().all(|own| self.is_zero_at_rest(own.e))
+    }
+
+    /// Whether a condition at another place, without data of its own, speaks of what does not depend on all variables: then it says the same
+    /// of it at the jet.
+    fn reaches(&self, own: &Whole) -> bool {
+        let space = &*self.functional.space;
+        let bare = self.without_data(own.elsewhere.clone(), &own.looked_at);
+        bare.iter().any(|own| {
+            let jets = space.jets_in(&[space.explicit(own.e)]).into_iter();
+            jets.into_iter()
+                .any(|jet| !space.varies_everywhere(jet.component))
+        })
     }
 
     /// The equations and conditions of a system, where expressions are looked at on a piece, or inside.
@@ -268,6 +306,8 @@ impl<'f> Comparison<'f> {
                 elsewhere.extend(conditions);
             }
         }
+        // Where two pieces meet conditions hold that are those of neither.
+        elsewhere.extend(bound(self.where_meeting(system), false));
         // A parameter is the same number everywhere, so also in what is looked at, and in the conditions that hold there.
         let looked_at = es.iter().flat_map(|&e| self.data_in(e));
         let of_here = here.iter().flat_map(|own: &Bound| own.data.clone());
@@ -288,6 +328,8 @@ impl<'f> Comparison<'f> {
         let mut pieces = functional.pieces.iter();
         (hold(&own.written)
             || (self.is_regular_everywhere(self.inside(system)) && hold(&own.inside)))
+            && self.is_apart_from_corners(system, own)
+            && !self.reaches(own)
             && self.keeps_signs(own)
             && !own.products_meet(&functional.space)
             && (is_line || pieces.all(|piece| self.is_free_along(piece, system)))
@@ -299,7 +341,6 @@ impl<'f> Comparison<'f> {
         let left = self.without_data(all, &own.looked_at);
         self.signed().is_empty()
             && self.is_regular_everywhere(self.inside(system))
-            && self.variation.corners.is_empty()
             && left.iter().all(|own| own.is_inside)
             && self.have_solutions(&left)
     }
@@ -389,9 +430,8 @@ impl<'f> Comparison<'f> {
         let symbols = space.symbols_in(&sides.collect::<Vec<Expr>>());
         let signed = self.signed();
         // Data of some variables alone are no load at one place.
-        let is_free = |own: usize| space.component_at(own).constant_along.is_empty();
         found.retain(|datum| match datum {
-            Datum::Component(own) => !signed.contains(own) && is_free(*own),
+            Datum::Component(own) => !signed.contains(own) && space.varies_everywhere(*own),
             Datum::Parameter(own) => !symbols.contains(own),
         });
         found

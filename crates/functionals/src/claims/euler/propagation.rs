@@ -13,7 +13,7 @@ use crate::smoothness::guard_of;
 use crate::variation::OnPiece;
 use chetaev_symbolic::zero::assumptions::is_implied;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Node, Rational};
+use chetaev_symbolic::{rational, Expr, Function, Node, Rational};
 
 /// So many derivatives are tried.
 const MOST: usize = 4;
@@ -26,10 +26,40 @@ impl<'f> Comparison<'f> {
         es: &[Expr],
         inside: &Solved<'f>,
         at_end: &AtEnd<'_, 'f>,
+        on: Option<&str>,
     ) -> bool {
-        let vanish = |&e: &Expr| inside.follows(&[e]) || self.vanishes_along(e, inside, at_end);
+        let side = on.and_then(|on| self.functional.piece(on));
+        let side = side.map(|piece| &piece.side);
+        let is_zero = |e: Expr| inside.follows(&[e]) || self.vanishes_along(e, inside, at_end);
+        let vanish = |&e: &Expr| {
+            is_zero(e)
+                || side.is_some_and(|side| self.continued(e, inside, side).is_some_and(is_zero))
+        };
         // A branch knows a sign at one place, and not along the way.
         self.derived.nonnegative().is_empty() && es.iter().all(vanish)
+    }
+
+    /// A function in the body that is an expression on a face: the series of Taylor back to the face, `Σ (a − x)ᵏ/k! Dᵏ e`, where that ends.
+    /// With u'' = −q and a number q, what is u' + q at x = 1 is u' + q x everywhere.
+    fn continued(&self, e: Expr, inside: &Solved<'f>, side: &Side) -> Option<Expr> {
+        let Side::Flat { axis, at, .. } = side else {
+            return None;
+        };
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let step = g.sub(*at, space.coordinates.get(*axis)?.expr);
+        let mut rate = inside.normal(e);
+        let mut sum = vec![rate];
+        let mut factor = g.one();
+        for k in 1..=MOST as i64 {
+            rate = inside.normal(space.total(rate, *axis));
+            if space.vanishes(rate) {
+                return Some(g.add(&sum));
+            }
+            factor = g.mul(&[factor, step, g.number(rational::ratio(1, k)?)]);
+            sum.push(g.mul(&[factor, rate]));
+        }
+        None
     }
 
     /// Whether a system carries an expression along one of the variables from a face on which it vanishes.
@@ -42,7 +72,7 @@ impl<'f> Comparison<'f> {
             let mut ends = self.ends_across(axis);
             ends.any(|(on, piece)| {
                 let there = at_end(on, piece);
-                let is_zero = there.follows(&chain) && !there.is_divided_by_jets();
+                let is_zero = there.follows(&chain) && !there.is_divided_by_jets_in_a_case();
                 if is_zero {
                     self.divided_by(&there);
                 }
@@ -54,7 +84,7 @@ impl<'f> Comparison<'f> {
     /// Whether neither fields nor data occur in what was divided by, which vanishes nowhere on the body: a quotient of fields that vanish at
     /// an end says nothing of them there.
     pub(super) fn is_regular_everywhere(&self, solved: &Solved<'f>) -> bool {
-        !solved.is_divided_by_jets() && self.is_regular(solved)
+        !solved.is_divided_by_jets_in_a_case() && self.is_regular(solved)
     }
 
     /// What vanishes with an expression and with its derivatives along an axis: jets less their values, whose rates along the axis vanish where
@@ -63,12 +93,17 @@ impl<'f> Comparison<'f> {
         let space = &*self.functional.space;
         self.is_regular_everywhere(inside).then_some(())?;
         let mut chain = vec![inside.normal(e)];
+        // A first integral needs no theorem.
+        let is_constant = space.vanishes(inside.normal(space.total(chain[0], axis)));
+        if is_constant && self.has_fields(chain[0]) {
+            return Some(chain);
+        }
         for _ in 0..MOST {
             let group = Group {
                 label: "an expression that is carried along".into(),
                 equations: chain.clone(),
             };
-            let closed = inside.with_at_corner(&[group]);
+            let closed = inside.with_at_point(&[group]);
             let carried = closed.beyond(inside);
             // A restriction of data is none that conditions enforce.
             carried.iter().all(|&e| self.has_fields(e)).then_some(())?;

@@ -412,8 +412,16 @@ impl<'f> Search<'f> {
     ) -> Option<Fields> {
         let space = &*self.functional.space;
         let d = space.coordinates.len();
-        let base = monomials(d, degree);
-        if open.len() * base.len() > MOST {
+        // Each with the products of powers of the variables on which it depends.
+        let terms: Vec<(usize, Polynomial)> = open
+            .iter()
+            .flat_map(|&component| {
+                let varies = |axis: usize| space.varies_along(component, axis);
+                let own = monomials(d, degree, &varies).into_iter();
+                own.map(move |monomial| (component, monomial))
+            })
+            .collect();
+        if terms.len() > MOST {
             return None;
         }
         let mut rows: Vec<(BTreeMap<usize, Rational>, Rational)> = Vec::new();
@@ -425,27 +433,24 @@ impl<'f> Search<'f> {
                 found.entry(exponents.to_vec()).or_default().1 = -value.clone();
             }
             for (jet, factor) in &linear.factors {
-                let place = open.iter().position(|own| *own == jet.component)?;
-                for (number, monomial) in base.iter().enumerate() {
+                let unknowns = terms.iter().enumerate();
+                let unknowns = unknowns.filter(|(_, (own, _))| *own == jet.component);
+                for (number, (_, monomial)) in unknowns {
                     let term = factor.times(&monomial.slopes(&jet.by)).at(&own.at);
                     for (exponents, value) in term.terms() {
                         let row = &mut found.entry(exponents.to_vec()).or_default().0;
-                        let entry = row.entry(place * base.len() + number);
-                        let entry = entry.or_insert(Rational::ZERO);
+                        let entry = row.entry(number).or_insert(Rational::ZERO);
                         *entry = rational::sum(entry, value);
                     }
                 }
             }
             rows.extend(found.into_values());
         }
-        let values = linear::some_solution(open.len() * base.len(), rows)?;
+        let values = linear::some_solution(terms.len(), rows)?;
         let mut fields = known;
-        for (place, &component) in open.iter().enumerate() {
-            let mut sum = Polynomial::default();
-            for (number, monomial) in base.iter().enumerate() {
-                sum.add(monomial, &values[place * base.len() + number]);
-            }
-            fields.insert(component, sum);
+        for ((component, monomial), value) in terms.iter().zip(&values) {
+            let own = fields.entry(*component).or_default();
+            own.add(monomial, value);
         }
         Some(fields)
     }
@@ -548,13 +553,14 @@ fn place_of(value: &Polynomial, d: usize) -> Vec<Rational> {
     found.unwrap_or_else(|| at(0))
 }
 
-/// All products of powers up to a degree.
-fn monomials(d: usize, degree: u32) -> Vec<Polynomial> {
+/// All products of powers up to a degree of the variables along which something varies.
+fn monomials(d: usize, degree: u32, varies: &dyn Fn(usize) -> bool) -> Vec<Polynomial> {
     let mut all: Vec<Vec<u32>> = vec![Vec::new()];
-    for _ in 0..d {
+    for axis in 0..d {
         let longer = all.into_iter().flat_map(|own| {
             let used: u32 = own.iter().sum();
-            (0..=degree - used).map(move |n| [own.clone(), vec![n]].concat())
+            let most = if varies(axis) { degree - used } else { 0 };
+            (0..=most).map(move |n| [own.clone(), vec![n]].concat())
         });
         all = longer.collect();
     }

@@ -3,6 +3,7 @@
 use super::form::Form;
 use super::is_not_negative;
 use crate::signs::enclosure;
+use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Function};
 use std::cmp::Ordering;
 
@@ -78,10 +79,11 @@ impl<'a, 'f> Field<'a, 'f> {
         if g.is_zero(ratio) {
             return Some(own);
         }
+        let root = |e: Expr| simplify(g, g.sqrt(e), &Options::default());
         match enclosure(space, ratio)?.sign()? {
-            Ordering::Less => own.frequency = Some(g.sqrt(g.neg(ratio))),
+            Ordering::Less => own.frequency = Some(root(g.neg(ratio))),
             Ordering::Equal => {}
-            Ordering::Greater => own.growth = Some(g.sqrt(ratio)),
+            Ordering::Greater => own.growth = Some(root(ratio)),
         }
         Some(own)
     }

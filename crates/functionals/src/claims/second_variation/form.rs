@@ -44,7 +44,7 @@ fn not_applicable(why: String) -> Box<Verdict> {
 impl<'f> Form<'f> {
     pub(super) fn of(functional: &'f Functional, solution: &'f Solution) -> Step<Form<'f>> {
         let space = &*functional.space;
-        if let Some(unfit) = unfit(functional, &solution.values) {
+        if let Some(unfit) = unfit(functional, &solution.values, &solution.intervals) {
             return Err(Box::new(unfit));
         }
         if let Some(own) = functional.with_role(Role::Imposed).next() {
@@ -109,6 +109,17 @@ impl<'f> Form<'f> {
     /// How many components are varied.
     pub(super) fn count(&self) -> usize {
         self.components.len()
+    }
+
+    /// Whether it vanishes for all variations, as all its coefficients do.
+    pub(super) fn is_zero(&self) -> bool {
+        let space = &*self.functional.space;
+        let inside = [&self.p, &self.q, &self.r].into_iter();
+        let mut all = inside.chain(self.ends.iter().map(|end| &end.b));
+        all.all(|own| {
+            let mut entries = own.iter().flatten();
+            entries.all(|&e| space.graph.is_zero(e) || space.vanish(&[e]))
+        })
     }
 
     fn hessian(&self, density: Expr, (one, other): (&[usize], &[usize])) -> Vec<Vec<Expr>> {

@@ -9,8 +9,12 @@
 use super::form::Form;
 use crate::signs::{on_interval, Sign};
 use chetaev_integrate::{from_fn, integrate, Options};
-use chetaev_symbolic::{rational, Expr, Rational};
+use chetaev_symbolic::{meter, rational, Expr, Rational};
 use std::cell::Cell;
+
+/// Units of work for the coefficients at a place, and for a product in an elimination.
+const COEFFICIENTS: u64 = 100;
+const STEP: u64 = 10;
 
 /// So many steps between which a change of sign is looked for.
 const STEPS: usize = 256;
@@ -129,6 +133,7 @@ struct Equations<'a, 'f> {
 impl Equations<'_, '_> {
     fn slope(&self, x: f64, y: &[f64]) -> Option<Basis> {
         let n = self.form.count();
+        meter::spend(COEFFICIENTS + STEP * n.pow(3) as u64);
         let p = numbers(self.form, &self.form.p, x)?;
         let q = numbers(self.form, &self.form.q, x)?;
         let r = numbers(self.form, &self.form.r, x)?;
@@ -228,7 +233,9 @@ pub(super) fn shown(form: &Form<'_>, (lower, upper): (f64, f64)) -> Option<Shown
             return Some(at_end(zero));
         }
         if let Some((first, value)) = &before {
-            if here.abs() <= value.abs() && here.abs() <= there.abs() {
+            // Of equal ones none is a minimum.
+            let least = value.abs().min(there.abs());
+            if here.abs() <= least && here.abs() < value.abs().max(there.abs()) {
                 let (zero, least) = scanned.minimum(first, (place(k - 2), place(k)))?;
                 if least < LEAST {
                     return Some(at_end(zero));

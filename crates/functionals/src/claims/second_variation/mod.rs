@@ -10,11 +10,13 @@ use crate::functional::{Functional, Solution};
 use crate::signs::{enclosure, on_interval, Sign};
 use crate::space::{Component, Space};
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::{rational, Expr, Rational, Verdict};
 use form::Form;
 use jacobi::Shown;
 use std::cmp::Ordering;
+use trial::Negative;
 
 /// `functional.second-variation#SOLUTION`.
 pub(super) struct SecondVariation;
@@ -123,6 +125,9 @@ fn verdict(form: &Form<'_>) -> Verdict {
     if let Some(proof) = by_signs(form) {
         return Verdict::Proved(proof);
     }
+    if form.is_zero() {
+        return vanishing();
+    }
     let Some(places) = Places::of(form) else {
         return Verdict::undecided(
             "the ends of the interval are no numbers: Jacobi's equation is printed, and not solved",
@@ -135,20 +140,33 @@ fn verdict(form: &Form<'_>) -> Verdict {
     if let Some(proof) = by_integrand(form, &places) {
         return Verdict::Proved(proof);
     }
-    let shown = jacobi::shown(form, places.numbers());
+    // What refutes is cheap and exact: it comes before what follows the basis by small steps.
+    if let Some(found) = negative(form, &places) {
+        return refuted(&found, followed(form, &places, NAMING));
+    }
+    let shown = followed(form, &places, FOLLOWING);
     if matches!(shown, Some(Shown::Positive)) {
         if let Some(w) = jacobi::certificate(form, (&places.outer[0], &places.outer[1])) {
             return proved_by(form, w);
         }
-    }
-    if let Some(verdict) = by_trial(form, &places, shown) {
-        return verdict;
     }
     if let (Some(Shown::Degenerate), Some(field)) = (shown, constant::degenerate(form)) {
         return degenerate(form, field);
     }
     by_numbers(shown, places.numbers(), trial::is_exact(form))
 }
+
+/// What a conjoined basis shows, as far as that is no more work than is allowed: beside a small P it oscillates fast.
+fn followed(form: &Form<'_>, places: &Places, seconds: f64) -> Option<Shown> {
+    let work = Work::of_seconds(seconds);
+    within(&work, || jacobi::shown(form, places.numbers()))
+        .ok()
+        .flatten()
+}
+
+/// Seconds of work for a conjoined basis, where something may depend on it, and where it only names the conjugate point of what is refuted.
+const FOLLOWING: f64 = 4.0;
+const NAMING: f64 = 0.2;
 
 const POSITIVE: &str = "all variations that are admitted and do not vanish";
 
@@ -179,6 +197,16 @@ fn by_signs(form: &Form<'_>) -> Option<Proof> {
     })
 }
 
+/// What vanishes for all variations is positive for none.
+fn vanishing() -> Verdict {
+    Verdict::Refuted(Counterexample {
+        point: Vec::new(),
+        quantity: "the second variation".into(),
+        residual: ("0".into(), "0".into()),
+        detail: "the second variation vanishes for all variations, so that it is positive for none: whether the solution is a minimum is not decided by it".into(),
+    })
+}
+
 enum Legendre {
     Holds,
     Fails(Box<Verdict>),
@@ -206,7 +234,8 @@ fn legendre(form: &Form<'_>, places: &Places) -> Legendre {
     if is_positive {
         return Legendre::Holds;
     }
-    Legendre::Open(Box::new(by_trial(form, places, None).unwrap_or_else(|| {
+    let negative = negative(form, places).map(|found| refuted(&found, None));
+    Legendre::Open(Box::new(negative.unwrap_or_else(|| {
         if let Some(proof) = by_integrand(form, places) {
             return Verdict::Proved(proof);
         }
@@ -287,7 +316,13 @@ fn by_integrand(form: &Form<'_>, places: &Places) -> Option<Proof> {
         };
         let is_positive =
             leading.is_nonnegative() && is_strict && is_fine(0, left) && is_fine(1, right);
-        return is_positive.then(|| Proof::exact(POSITIVE, detail));
+        let is_strict = leading == Sign::Positive && rest == Sign::Positive;
+        let told = if is_strict {
+            detail
+        } else {
+            "the integrand of the second variation and what stands at the ends are nowhere negative, and all of it vanishes for v = 0 only"
+        };
+        return is_positive.then(|| Proof::exact(POSITIVE, told));
     }
     let is_free = |end: &form::End| !end.fixed.iter().all(|fixed| *fixed);
     let has_ends = form
@@ -334,10 +369,14 @@ fn decimal(x: f64, digits: usize) -> String {
     }
 }
 
-/// A polynomial with a negative second variation.
-fn by_trial(form: &Form<'_>, places: &Places, shown: Option<Shown>) -> Option<Verdict> {
-    let bounds = trial::negative(form, &places.inner)?.map(|value| decimal(value, 9));
-    let [size, _] = &bounds;
+/// A negative second variation for polynomials.
+fn negative(form: &Form<'_>, places: &Places) -> Option<Negative> {
+    let whole = trial::negative(form, &places.inner);
+    whole.or_else(|| trial::negative_on_part(form, &places.inner))
+}
+
+fn refuted(found: &Negative, shown: Option<Shown>) -> Verdict {
+    let [size, upper] = found.bounds.map(|value| decimal(value, 9));
     let why = match shown {
         Some(Shown::Conjugate(x)) => {
             let x = decimal(x, 12);
@@ -345,12 +384,21 @@ fn by_trial(form: &Form<'_>, places: &Places, shown: Option<Shown>) -> Option<Ve
         }
         _ => String::new(),
     };
-    Some(Verdict::Refuted(Counterexample {
+    let which = match &found.part {
+        Some([from, to]) => {
+            format!("that are zero outside of the part between x = {from} and x = {to}")
+        }
+        None => "that are admitted".to_owned(),
+    };
+    let detail = format!(
+        "{why}for polynomials v {which} the second variation is {size}, by exact integration"
+    );
+    Verdict::Refuted(Counterexample {
         point: Vec::new(),
         quantity: "the second variation".into(),
-        residual: (size.clone(), bounds[1].clone()),
-        detail: format!("{why}for polynomials v that are admitted the second variation is {size}, by exact integration"),
-    }))
+        residual: (size, upper),
+        detail,
+    })
 }
 
 fn degenerate(form: &Form<'_>, field: Expr) -> Verdict {
@@ -372,7 +420,7 @@ fn by_numbers(shown: Option<Shown>, (lower, upper): (f64, f64), is_tried: bool) 
         "the coefficients are no polynomials with numbers, for which polynomial variations are integrated exactly"
     };
     match shown {
-        None => Verdict::undecided("Jacobi's equations have no numbers as coefficients, or could not be integrated: they are printed"),
+        None => Verdict::undecided("Jacobi's equations have no numbers as coefficients, or could not be integrated with the work that is allowed: they are printed"),
         Some(Shown::Positive) => Verdict::Numerical(Evidence {
             samples: 1,
             region: format!("a conjoined basis from x = {lower} to x = {upper}"),

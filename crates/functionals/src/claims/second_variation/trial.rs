@@ -2,12 +2,15 @@
 
 use super::form::Form;
 use crate::polynomial::{Domain, Polynomial};
-use crate::signs::enclosure;
-use chetaev_symbolic::{rational, Expr, Rational};
+use crate::signs::{enclosure, on_interval, Sign};
+use chetaev_symbolic::{meter, rational, Expr, Rational};
 use std::cmp::Ordering;
 
 /// Degrees of the polynomials by which the factors that vanish at the ends are multiplied.
 const DEGREES: [u32; 4] = [0, 2, 6, 10];
+
+/// Units of work for a product and a sum of rational numbers.
+const STEP: u64 = 100;
 
 /// A form with polynomials on a rational interval.
 struct Trial {
@@ -21,6 +24,14 @@ struct Trial {
     domain: Domain,
 }
 
+/// A negative value of the form.
+pub(super) struct Negative {
+    /// Numbers below and above it.
+    pub bounds: [f64; 2],
+    /// The part of the interval outside of which the variation is zero.
+    pub part: Option<[Rational; 2]>,
+}
+
 /// A variation: one polynomial for each component.
 type Variation = Vec<Polynomial>;
 
@@ -30,25 +41,52 @@ pub(super) fn is_exact(form: &Form<'_>) -> bool {
     Trial::new(form, &places).is_some()
 }
 
+/// So many halves one after the other are tried.
+const HALVES: u32 = 40;
+
+/// A negative value for a variation that vanishes outside of a part of the interval, where R − Q' is negative at a place in it: beside a small
+/// P it has to be short, and no polynomial of low degree on the whole interval is.
+pub(super) fn negative_on_part(form: &Form<'_>, places: &[Rational; 2]) -> Option<Negative> {
+    let space = &*form.functional.space;
+    let g = &space.graph;
+    let [lower, upper] = places;
+    let centre = |component: usize| {
+        let slope = space.total(form.q[component][component], 0);
+        let rest = g.sub(form.r[component][component], slope);
+        match on_interval(space, rest, (lower, upper)) {
+            Sign::Negative(x) => Some(x),
+            _ => None,
+        }
+    };
+    let centres: Vec<Rational> = (0..form.count()).filter_map(centre).collect();
+    let length = upper - lower;
+    (1..=HALVES).find_map(|n| {
+        let half = length.clone() / rational::integer(1 << n);
+        centres.iter().find_map(|x| {
+            let part = [
+                lower.clone().max(x - &half),
+                upper.clone().min(rational::sum(x, &half)),
+            ];
+            let trial = Trial {
+                are_cut: [true, true],
+                ..Trial::new(form, &part)?
+            };
+            let bounds = trial.negative(form, 0)?;
+            Some(Negative {
+                bounds,
+                part: Some(part),
+            })
+        })
+    })
+}
+
 /// A negative value, where one is found, between two numbers. At an end that is held and no rational number the variation vanishes from a place
 /// before on; one that is free is met by rational numbers first, and the value is then enclosed.
-pub(super) fn negative(form: &Form<'_>, places: &[Rational; 2]) -> Option<[f64; 2]> {
+pub(super) fn negative(form: &Form<'_>, places: &[Rational; 2]) -> Option<Negative> {
     let trial = Trial::new(form, places)?;
-    DEGREES.into_iter().find_map(|degree| {
-        let base = trial.base(form, degree);
-        let matrix: Vec<Vec<Rational>> = base
-            .iter()
-            .map(|a| base.iter().map(|b| trial.value(a, b)).collect())
-            .collect();
-        let x = descending(matrix)?;
-        let mut v = vec![Polynomial::default(); form.count()];
-        for (own, coefficient) in base.iter().zip(&x) {
-            for (sum, part) in v.iter_mut().zip(own) {
-                sum.add(part, coefficient);
-            }
-        }
-        trial.enclosed(form, &v)
-    })
+    let mut degrees = DEGREES.into_iter();
+    let bounds = degrees.find_map(|degree| trial.negative(form, degree))?;
+    Some(Negative { bounds, part: None })
 }
 
 impl Trial {
@@ -76,6 +114,23 @@ impl Trial {
                 at: None,
             },
         })
+    }
+
+    /// A negative value for polynomials of one degree.
+    fn negative(&self, form: &Form<'_>, degree: u32) -> Option<[f64; 2]> {
+        let base = self.base(form, degree);
+        let matrix: Vec<Vec<Rational>> = base
+            .iter()
+            .map(|a| base.iter().map(|b| self.value(a, b)).collect())
+            .collect();
+        let x = descending(matrix)?;
+        let mut v = vec![Polynomial::default(); form.count()];
+        for (own, coefficient) in base.iter().zip(&x) {
+            for (sum, part) in v.iter_mut().zip(own) {
+                sum.add(part, coefficient);
+            }
+        }
+        self.enclosed(form, &v)
     }
 
     fn base(&self, form: &Form<'_>, degree: u32) -> Vec<Variation> {
@@ -184,6 +239,7 @@ fn descending(mut matrix: Vec<Vec<Rational>>) -> Option<Vec<Rational>> {
         };
         let k = left.remove(at);
         for &r in &left {
+            meter::spend(STEP * n as u64);
             let factor = &matrix[r][k] / &matrix[k][k];
             if factor == Rational::ZERO {
                 continue;

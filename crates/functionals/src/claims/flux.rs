@@ -1,0 +1,63 @@
+//! A vector whose divergence a density is that has no Euler expressions.
+//!
+//! On the way `λ u` from zero to the fields such a density changes by `∂L/∂λ = D_i w_i`, where w comes by parts from the slopes of L by all jets, so
+//! that `L[u] − L[0] = D_i ∫₀¹ w_i dλ` (the lemma of Poincaré; P. J. Olver, Applications of Lie Groups to Differential Equations, 1986, ch. 5).
+//! The integral is a sum over five places, exact for polynomials up to the fifth degree (G. Boole 1860); whether it is right is
+//! decided by the divergence itself.
+
+use crate::polynomial::Polynomial;
+use crate::space::Space;
+use chetaev_symbolic::{rational, Expr};
+
+/// Boole's rule: places and weights, in quarters and in ninetieths.
+const BOOLE: [(i64, i64); 5] = [(0, 7), (1, 32), (2, 12), (3, 32), (4, 7)];
+
+/// A flux of a density; `None` where none was found.
+pub(super) fn of(space: &Space, density: Expr) -> Option<Vec<Expr>> {
+    let g = &space.graph;
+    let mut flux = vec![Vec::new(); space.coordinates.len()];
+    for (place, weight) in BOOLE {
+        let factor = g.number(rational::ratio(place, 4)?);
+        let weight = g.number(rational::ratio(weight, 90)?);
+        for jet in space.jets_in(&[density]) {
+            let slope = g.mul(&[weight, scaled(space, space.partial(density, &jet), factor)]);
+            by_parts(space, (jet.component, &jet.by), slope, &mut flux);
+        }
+    }
+    let rest = scaled(space, density, g.zero());
+    if let Some(first) = flux.first_mut().filter(|_| !g.is_zero(rest)) {
+        first.push(Polynomial::of(space, rest)?.primitive(0).expr(space));
+    }
+    let found: Vec<Expr> = flux.iter().map(|terms| g.add(terms)).collect();
+    let slopes = found.iter().enumerate();
+    let divergence: Vec<Expr> = slopes.map(|(axis, &w)| space.total(w, axis)).collect();
+    let difference = g.sub(density, g.add(&divergence));
+    space.vanish(&[difference]).then_some(found)
+}
+
+/// All jets times a factor.
+fn scaled(space: &Space, e: Expr, factor: Expr) -> Expr {
+    let g = &space.graph;
+    space.replace(space.explicit(e), &|symbol| {
+        let own = space.as_jet(symbol)?;
+        Some(g.mul(&[factor, space.jet(own.component, &own.by)]))
+    })
+}
+
+/// What goes to the boundary where a jet times a coefficient is integrated by parts.
+fn by_parts(
+    space: &Space,
+    (component, by): (usize, &[usize]),
+    coefficient: Expr,
+    flux: &mut [Vec<Expr>],
+) {
+    let Some((&axis, rest)) = by.split_first() else {
+        return;
+    };
+    let g = &space.graph;
+    if let Some(terms) = flux.get_mut(axis) {
+        terms.push(g.mul(&[space.jet(component, rest), coefficient]));
+    }
+    let next = g.neg(space.total(coefficient, axis));
+    by_parts(space, (component, rest), next, flux);
+}
