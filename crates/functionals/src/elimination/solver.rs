@@ -47,6 +47,9 @@ const HOMOGENEOUS: u8 = 5;
 const DERIVATIVE: u8 = 6;
 const PLAIN_DATA: u8 = 7;
 
+/// Rules are taken back so many times.
+const MOST_TAKEN_BACK: usize = 4;
+
 /// Determinants of matrices with more rows are not written out.
 const LARGEST_DETERMINANT: usize = 3;
 
@@ -494,7 +497,7 @@ impl Solved<'_> {
     /// Takes back rules that were found by dividing by what vanishes in the case at hand, with all that came after them: their equations
     /// are left again.
     pub(super) fn take_back(&mut self) {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MOST_TAKEN_BACK {
             let has_vanished = |own: &Adopted| {
                 let divisor = own
                     .divisor
@@ -517,6 +520,18 @@ impl Solved<'_> {
             self.ranking = self.ranking_with(Vec::new());
             self.solve();
         }
+        self.give_up();
+    }
+
+    /// Forgets all equations: where rules are found again and again by dividing by what vanishes, as one makes the divisor of another zero,
+    /// nothing that was made of them is known to hold.
+    fn give_up(&mut self) {
+        self.rules.clear();
+        self.adopted.clear();
+        self.left.clear();
+        self.crossed.clear();
+        self.known.borrow_mut().clear();
+        self.is_circular.set(true);
     }
 
     /// `B'(Y) = X` as `Y = A'(X)` in a group that was not changed yet.
