@@ -11,12 +11,8 @@
 
 from __future__ import annotations
 
-import sys as _sys
-
-if _sys.version_info < (3, 12):
-    # Newer ones refuse by themselves what holds for one interpreter of a process.
-    from . import _interpreter  # noqa: F401
-
+# First of all, as it says whether the native part may be loaded.
+from . import _interpreter  # noqa: F401, I001
 from . import errors, gallery
 from .chetaev_native import VERSION as __version__
 from .claims import explain, verify

@@ -14,7 +14,7 @@ from typing import Any
 from . import chetaev_native as native
 from .asked import seconds
 from .errors import OptionError
-from .results import Explanation, Study, Verification
+from .results import Explanation, Result, Verification
 
 
 def explain(claim: str | None = None) -> Explanation:
@@ -35,14 +35,15 @@ def explain(claim: str | None = None) -> Explanation:
 
 
 def verify(
-    record: str | os.PathLike[str] | Study | dict[str, Any], *, budget: float = 120.0, independent: bool = False
+    record: str | os.PathLike[str] | Result | dict[str, Any], *, budget: float = 120.0, independent: bool = False
 ) -> Verification:
     """Replays the verdicts of a record by other random choices, or has them examined by a program that shares nothing with this one.
 
     Parameters
     ----------
-    record : path, Study or dict
-        A ``study.json``, whose files beside it are held against their checksums; a study, or what its ``to_dict()`` gave.
+    record : path, Study, FunctionalStudy or dict
+        A ``study.json``, or a study that was written by ``out=``, whose files are held against their checksums; another study, or what its
+        ``to_dict()`` gave.
     budget : float
         Work allowed for each of the two replays, in seconds of a usual machine.
     independent : bool
@@ -61,15 +62,19 @@ def verify(
     >>> chetaev.verify(sleigh.study(claims="energy.integral", t_end=1)).agrees
     True
     """
-    if isinstance(record, (Study, dict)):
-        text = json.dumps(record.to_dict() if isinstance(record, Study) else record)
+    folder: str | None = None
+    if isinstance(record, Result):
+        text, folder = json.dumps(record.to_dict()), record._folder
+    elif isinstance(record, dict):
+        text = json.dumps(record)
     else:
+        folder = os.path.dirname(os.fspath(record))
         with open(record, encoding="utf-8-sig") as file:
             text = file.read()
     if independent:
         said, agrees = _examined(text)
         return Verification(json.loads(said), agrees)
-    beside = _checksums(os.path.dirname(os.fspath(record))) if isinstance(record, (str, os.PathLike)) else None
+    beside = None if folder is None else _checksums(folder)
     said, agrees = native.verify(text, seconds("budget", budget), None, beside)
     return Verification(json.loads(said), agrees)
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from .chetaev_native import Function
+    from .shapes import Vector
     from .system import System
 
 
@@ -22,7 +23,7 @@ class Compiled(Shown):
 
     The state ``y`` is (coordinates, masses with a law of their own, velocities); ``state`` names its components. All functions take
     the time first, one state of shape (n,) or many of shape (…, n), and write into ``out`` where it is given. Where the equations
-    have no solution the values are not a number.
+    have no solution the values are not finite: not a number, or infinite where a number is divided by zero.
 
     Attributes
     ----------
@@ -74,7 +75,7 @@ class Compiled(Shown):
         return self.system._anew().start()
 
     @property
-    def start(self) -> NDArray[np.float64]:
+    def start(self) -> Vector:
         """The state from which ``simulate`` starts, shape (n,): what the model gives, and the rest from the constraints.
 
         Raises

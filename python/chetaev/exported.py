@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from .chetaev_native import Model
     from .results import Formulation
+    from .shapes import Vector
     from .system import System
 
 
@@ -49,8 +50,8 @@ class Exported(Shown):
         space: dict[str, Any] = {}
         # The text begins with the import of NumPy, of which only these two arrays are made.
         exec(compile(source, "<chetaev>", "exec"), space)
-        self.start: NDArray[np.float64] = space["start"]
-        self.p: NDArray[np.float64] = space["parameters"]
+        self.start: Vector = space["start"]
+        self.p: Vector = space["parameters"]
         self.source = source
         self.state, known = names
         self.parameters: dict[str, float] = dict(zip(known, map(float, self.p)))

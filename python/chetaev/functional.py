@@ -17,6 +17,7 @@ from .errors import ModelWarning
 from .keywords import in_python
 from .results import Check, Explanation, Json, Result, Shown, Typeset, Verdict, Verification, part_of, write
 from .system import Value, _pairs, _Progress, of_gallery, readable
+from .texts import shown
 
 
 class FieldEquation(Typeset):
@@ -260,7 +261,7 @@ class FunctionalStudy(Result):
         Verification
             What is said of each verdict.
         """
-        return verify(self.to_dict())
+        return verify(self)
 
     def render_static(self) -> str:
         """HTML with the report inside, which exported notebooks keep.
@@ -300,7 +301,7 @@ class Functional(Shown):
     def _of(cls, functional: native.Functional) -> Functional:
         own = cls.__new__(cls)
         own._native = functional
-        said = functional.warnings()
+        said = in_python(functional.warnings())
         if said:
             warnings.warn(said, ModelWarning, stacklevel=3)
         return own
@@ -415,15 +416,21 @@ class Functional(Shown):
 
     @property
     def text(self) -> str:
-        """The model file."""
-        return self._native.texts()[1]
+        """The model file, with the values that were set written into it; comments and order stay.
+
+        Raises
+        ------
+        ModelError
+            Where the file has no place for one of them, as for one of a family of parameters alone, or for one that other files take too.
+        """
+        return self._native.text()
 
     def __repr__(self) -> str:
         fields = ", ".join(f"{name} ({kind})" for name, kind in self.fields.items())
         return f"<Functional {self.name}: {fields}; {self.dimensions} dimension{'s' if self.dimensions > 1 else ''}>"
 
     def _html(self) -> str:
-        return notebook.unfolding(repr(self)[12:-1], notebook.preformatted(self.text))
+        return notebook.unfolding(repr(self)[12:-1], notebook.preformatted(shown(self._native)))
 
     def check(self) -> Check:
         """Everything wrong or doubtful in the file.
@@ -479,6 +486,7 @@ class Functional(Shown):
             found = FunctionalStudy(*self._native.study(named, tell))
         if out is not None:
             found._data["files"] = found._save(out)
+            found._folder = os.path.abspath(out)
         return found
 
     def explain(self, claim: str = "functional.euler") -> Explanation:

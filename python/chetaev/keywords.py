@@ -11,14 +11,14 @@ from typing import Any
 
 #: Options without a value.
 FLAGS = frozenset(
-    "project keep-integrals orbit second symbolic numbers zip stop-on-failure compare lowered independent".split()
+    "project keep-integrals orbit second symbolic numbers all zip stop-on-failure compare lowered independent".split()
 )
 #: Options whose value is one word or expression, which a keyword takes as a text.
 WORDS = frozenset("about method precision formulation claims speeds outputs over at period as show sensitivity".split())
 #: Options whose value is a name with what it is to be, which a keyword takes as a mapping.
 MAPPINGS = frozenset("vary initial kappa".split())
 #: Options that are called otherwise in Python, or are methods.
-_OTHERWISE = {"as": "notation", "steps": "steps()", "along": "along()", "show": "verdicts", "all": "verdicts", "lowered": "lowered()", "json": "to_dict()"}
+_OTHERWISE = {"as": "notation", "steps": "steps()", "along": "along()", "show": "verdicts", "lowered": "lowered()", "json": "to_dict()"}
 #: Commands with an option that makes them another method.
 _METHODS = {("linearize", "along"): "along()", ("derive", "steps"): "steps()", ("simulate", "sensitivity"): "sensitivity()"}
 #: Sentences of which Python has another one.

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from .chetaev_native import Linear, Outcome
+    from .shapes import ComplexVector, Matrices, Matrix, Vector
     from .system import System
     from .trees import Module
 
@@ -87,6 +88,9 @@ class Shown:
 
 class Result(Shown):
     """An answer with its data."""
+
+    #: The folder of the files that its data name, where it was written into one as it was made.
+    _folder: str | None = None
 
     def __init__(self, data: Json, text: str) -> None:
         self._data = data
@@ -220,7 +224,8 @@ class Formulation(Result):
 
     def __init__(self, data: dict[str, Any], derivation: Derivation | None = None) -> None:
         self.name: str = data["formulation"]
-        self.not_derived: str | None = data.get("not_derived")
+        why = data.get("not_derived")
+        self.not_derived: str | None = why if why is None else in_python(why)
         self.title: str = data.get("title", self.name)
         self.statement: str = data.get("statement", "")
         self.principle: str = data.get("principle", "")
@@ -310,7 +315,7 @@ class Derivation(Result, Sequence[Formulation]):
         self._system = system
         self._asked = asked
         self._shown: str | None = None
-        self.notes = notes
+        self.notes = [in_python(own) for own in notes]
         self.formulations = [Formulation(own, self) for own in data]
         super().__init__(data, "\n\n".join(repr(own) for own in self.formulations))
 
@@ -404,7 +409,7 @@ class Counts(Result):
 
     def __init__(self, text: str, notes: list[str]) -> None:
         super().__init__({"text": text, "notes": notes}, text)
-        self.notes = notes
+        self.notes = [in_python(own) for own in notes]
 
     def _html(self) -> str:
         return written.counts(str(self)) + "".join(map(notebook.paragraph, self.notes))
@@ -421,7 +426,7 @@ class Steps(Result):
 
     def __init__(self, text: str, notes: list[str], system: System | None = None, asked: tuple[list[str], bool] = ([], False)) -> None:
         super().__init__({"text": text, "notes": notes}, text)
-        self.notes = notes
+        self.notes = [in_python(own) for own in notes]
         self._system, self._asked = system, asked
 
     def to_latex(self) -> str:
@@ -603,12 +608,12 @@ class LinearAlong(Result):
         super().__init__(data, text)
         rows, count = data["rows"], len(data["variables"])
         self.variables: list[str] = list(data["variables"])
-        self.times: NDArray[np.float64] = np.array([own["t"] for own in rows], dtype=float)
-        self.state: NDArray[np.float64] = np.array([own["state"] for own in rows], dtype=float)
-        self.A: NDArray[np.float64] = np.array([own["A"] for own in rows], dtype=float)
-        self.transition: NDArray[np.float64] = np.array([own["transition"] for own in rows], dtype=float)
+        self.times: Vector = np.array([own["t"] for own in rows], dtype=float)
+        self.state: Matrix = np.array([own["state"] for own in rows], dtype=float)
+        self.A: Matrices = np.array([own["A"] for own in rows], dtype=float)
+        self.transition: Matrices = np.array([own["transition"] for own in rows], dtype=float)
         none = [float("nan")] * count
-        self.exponents: NDArray[np.float64] = np.array([own["exponents"] or none for own in rows], dtype=float)
+        self.exponents: Matrix = np.array([own["exponents"] or none for own in rows], dtype=float)
 
     def _html(self) -> str:
         last = len(self.times) - 1
@@ -724,7 +729,7 @@ class Linearization(Result):
         return [list(row) for row in self._data["F"]]
 
     @property
-    def eigenvalues(self) -> NDArray[np.complex128] | None:
+    def eigenvalues(self) -> ComplexVector | None:
         """At the values of the model, in 1/s where the model states units, shape (variables,); ``None`` where one has no value."""
         import numpy as np
 
@@ -822,7 +827,7 @@ class Verdict(Result):
         subject = data["subject"]
         self.claim: str = data["claim"] if subject is None else f"{data['claim']}#{subject}"
         self.verdict: str = data["verdict"]
-        self.detail: str = data["detail"]
+        self.detail: str = in_python(data["detail"])
         super().__init__(data, f"{self.claim}: {self.verdict}: {self.detail}")
 
     def to_sympy(self) -> list[Any]:
@@ -861,7 +866,7 @@ class Verdict(Result):
         return notebook.verdicts([self])
 
 
-class Columns(dict[str, "NDArray[np.float64]"], Shown):
+class Columns(dict[str, "Vector"], Shown):
     """Columns of one length by their names: a dict of arrays of shape (rows,)."""
 
     def _html(self) -> str:
@@ -1057,28 +1062,25 @@ class Trajectory(Result):
         super().__init__(json.loads(outcome.run([])), text)
         names, columns = self._outcome.columns()
         self.names: list[str] = names
-        self._columns: NDArray[np.float64] = columns
+        self._columns: Matrix = columns
 
     def __reduce__(self) -> tuple[Any, ...]:
         kept = {name: own for name, own in self.__dict__.items() if name not in ("sol", "verdicts")}
         return _unpickled, (Trajectory, {**kept, "_outcome": remembered(self._outcome, self._again)})
 
     @overload
-    def __getitem__(self, which: str) -> NDArray[np.float64]: ...
+    def __getitem__(self, which: str | int) -> Vector: ...
 
     @overload
-    def __getitem__(self, which: Sequence[str] | int | slice) -> NDArray[np.float64]: ...
+    def __getitem__(self, which: list[str] | tuple[str, ...] | slice) -> Matrix: ...
 
-    def __getitem__(self, which: Any) -> NDArray[np.float64]:
+    def __getitem__(self, which: Any) -> Any:
         """Columns by their names, rows by their numbers."""
-        found: NDArray[np.float64]
         if isinstance(which, str):
-            found = self._columns[self._place(which)]
-        elif isinstance(which, (list, tuple)) and which and all(isinstance(own, str) for own in which):
-            found = self._columns[[self._place(own) for own in which]].T
-        else:
-            found = self.y[which]
-        return found
+            return self._columns[self._place(which)]
+        if isinstance(which, (list, tuple)) and which and all(isinstance(own, str) for own in which):
+            return self._columns[[self._place(own) for own in which]].T
+        return self.y[which]
 
     def _place(self, name: str) -> int:
         if name in self.names:
@@ -1114,12 +1116,12 @@ class Trajectory(Result):
         return list(self.names)
 
     @property
-    def t(self) -> NDArray[np.float64]:
+    def t(self) -> Vector:
         """The times, shape (rows,)."""
         return self["t"]
 
     @property
-    def y(self) -> NDArray[np.float64]:
+    def y(self) -> Matrix:
         """All columns in the order of ``names``, shape (rows, columns); the time is the first."""
         return self._columns.T
 
@@ -1159,7 +1161,7 @@ class Trajectory(Result):
     @property
     def reason(self) -> str:
         """Why it ended."""
-        return str(self._data["reason"])
+        return in_python(str(self._data["reason"]))
 
     @property
     def notices(self) -> list[str]:
@@ -1185,7 +1187,7 @@ class Trajectory(Result):
         """Events that were met: ``event``, its name; ``t``, the time; ``zero``, how its function passes zero; ``state``, names with values."""
         return list(self.to_dict()["events"])
 
-    def to_numpy(self) -> NDArray[np.float64]:
+    def to_numpy(self) -> Matrix:
         """One array of shape (rows, columns), as ``y``.
 
         Returns

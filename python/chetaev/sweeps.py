@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import csv
+import errno
 import hashlib
 import io
 import json
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import notebook
 from .asked import mapping, whole
-from .errors import Interrupted
+from .errors import Interrupted, OptionError
+from .keywords import in_python
 from .results import Result, writable, write
 from .texts import exact
 
@@ -30,6 +33,9 @@ if TYPE_CHECKING:
 #: Trajectories whose end was reached, that ended early, that did not begin; an event k has the number 10 + k.
 _FINISHED, _EARLY, _NOT_STARTED, _EVENTS = 0, 1, 2, 10
 
+#: The file that says which sweep a folder keeps.
+_RECORD = "sweep.json"
+
 
 class Sweep(Result):
     """Trajectories of one model, a row for each. ``sweep["vary_a"]``, ``sweep["end_x"]``, ``sweep["stop"]`` are arrays.
@@ -44,17 +50,19 @@ class Sweep(Result):
         Why a trajectory ended early or did not begin, by its number.
     """
 
-    def __init__(self, arrays: Arrays, failures: Mapping[int, str], events: Sequence[str], archive: str | None = None) -> None:
+    def __init__(
+        self, arrays: Arrays, failures: Mapping[int, str], events: Sequence[str], archive: str | None = None, taken_over: int = 0
+    ) -> None:
         import numpy as np
 
         self._arrays = dict(arrays)
         self.names = list(arrays)
-        self.failures = dict(failures)
+        self.failures = {number: in_python(reason) for number, reason in failures.items()}
         stops, numbers = np.unique(self._arrays["stop"], return_counts=True)
         counts = {int(stop): int(number) for stop, number in zip(stops, numbers)}
         data = {
             "trajectories": len(self),
-            "taken_over": 0,
+            "taken_over": taken_over,
             "finished": counts.get(_FINISHED, 0),
             "events": {name: counts.get(_EVENTS + k, 0) for k, name in enumerate(events)},
             "ended_early": counts.get(_EARLY, 0),
@@ -143,9 +151,16 @@ class Sweep(Result):
         ----------
         folder : path
             A folder, which is made where there is none.
+
+        Raises
+        ------
+        FileExistsError
+            Where the folder keeps a sweep, as ``sweep(out=…)`` and the command leave it.
         """
         import numpy as np
 
+        if os.path.exists(os.path.join(folder, _RECORD)):
+            raise FileExistsError(errno.EEXIST, "a sweep is kept there, and goes on there: choose another folder", os.fspath(folder))
         archive = io.BytesIO()
         np.savez(archive, **self._arrays)  # type: ignore[arg-type, unused-ignore]
         write(os.path.join(folder, "sweep.npz"), archive.getvalue())
@@ -224,7 +239,11 @@ def columns_of(given: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]
     """Columns of one length; numbers are repeated."""
     import numpy as np
 
-    wide = np.broadcast_arrays(*(_reals(name, own) for name, own in given.items()))
+    found = {name: _reals(name, own) for name, own in given.items()}
+    for name, own in found.items():
+        if own.size == 0:
+            raise OptionError(f"`{name}` is empty: one value for each trajectory is needed")
+    wide = np.broadcast_arrays(*found.values())
     for name, own in zip(given, wide):
         if own.ndim != 1:
             raise ValueError(f"`{name}` has {own.ndim} dimensions: one value for each trajectory is needed")
@@ -241,6 +260,24 @@ def computed(
     """Trajectories with the numbers of a span, and whether Ctrl-C ended them."""
     _, arrays, failures, interrupted = prepared.compute(*span, threads, stop_on_failure, tell)
     return Sweep(dict(zip(prepared.columns, arrays)), dict(failures), prepared.events), interrupted
+
+
+def kept(
+    prepared: native.Sweep, folder: str | os.PathLike[str], threads: int | None, stop_on_failure: bool, tell: Any
+) -> tuple[Sweep, bool]:
+    """The sweep that a folder keeps, with what is missing computed, and whether Ctrl-C ended that: then, and after a failure, what is there."""
+    import numpy as np
+
+    taken, note, part, interrupted = prepared.keep(os.fspath(folder), threads, stop_on_failure, tell)
+    if note is not None:
+        warnings.warn(note, UserWarning, stacklevel=3)
+    if part is not None:
+        _, arrays, failures = part
+        return Sweep(dict(zip(prepared.columns, arrays)), dict(failures), prepared.events, None, taken), interrupted
+    archive = os.path.join(os.fspath(folder), "sweep.npz")
+    with np.load(archive) as columns, open(os.path.join(folder, "failures.csv"), encoding="utf-8", newline="") as file:
+        reasons = {int(own["trajectory"]): own["reason"] for own in csv.DictReader(file)}
+        return Sweep(dict(columns), reasons, prepared.events, archive, taken), interrupted
 
 
 def ensemble(
@@ -375,11 +412,12 @@ class _Task:
 
 
 def _keep(path: str, arrays: Arrays, failures: Mapping[int, str], events: Sequence[str]) -> None:
-    """Writes a chunk, with checksums."""
+    """Writes a chunk, with checksums of its pages and of all that is read of it."""
     import pyarrow.parquet as parquet
 
     sink = io.BytesIO()
-    table = _table(arrays, failures).replace_schema_metadata({"events": json.dumps(list(events))})
+    own = {"events": json.dumps(list(events)), "sha256": _checksum(arrays, failures, events)}
+    table = _table(arrays, failures).replace_schema_metadata(own)
     parquet.write_table(table, sink, write_page_checksum=True)
     write(path, sink.getvalue())
 
@@ -409,7 +447,16 @@ class _Pools:
         self.executor: Any = executor
         self.tasks = tasks
         self._fresh: list[Any] = []
-        self.waiting = [self._submitted(task) for task in tasks]
+        self.waiting: list[Any] = []
+
+    def start(self) -> None:
+        """Hands all tasks over."""
+        for task in self.tasks:
+            self.waiting.append(self._submitted(task))
+
+    @property
+    def _is_dask(self) -> bool:
+        return type(self.executor).__module__.partition(".")[0] == "distributed"
 
     def _submitted(self, task: _Task) -> Any:
         from concurrent.futures import BrokenExecutor, Future
@@ -425,7 +472,7 @@ class _Pools:
     def _submission(self, task: _Task) -> Any:
         if self.executor is None:
             return task
-        if type(self.executor).__module__.partition(".")[0] == "distributed":
+        if self._is_dask:
             return self.executor.submit(_call, task, key=f"chetaev-{task.key}")
         return self.executor.submit(_call, task)
 
@@ -451,8 +498,12 @@ class _Pools:
                         self.waiting[later] = self._submitted(self.tasks[later])
 
     def close(self) -> None:
-        for own in self.waiting if self.executor is not None else []:
-            own.cancel()
+        """Gives up what has not begun; a client of Dask in one message, as each takes its time."""
+        if self._is_dask:
+            self.executor.cancel(self.waiting)
+        elif self.executor is not None:
+            for own in self.waiting:
+                own.cancel()
         for pool in self._fresh:
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -465,6 +516,7 @@ def _ended(tasks: list[_Task], executor: Any, progress: bool) -> list[tuple[Any,
     found = []
     with _Progress(progress) as tell:
         try:
+            pools.start()
             for number in range(len(tasks)):
                 found.append(pools.result(number))
                 if tell is not None:
@@ -520,5 +572,17 @@ def _read(path: str) -> tuple[Arrays, dict[int, str], list[str]]:
             arrays[name] = np.array(own)
     reasons = table["reason"].to_pylist()
     failures = {number: reason for number, reason in enumerate(reasons) if reason is not None}
-    events = json.loads((table.schema.metadata or {}).get(b"events", b"[]"))
+    told = table.schema.metadata or {}
+    events = json.loads(told.get(b"events", b"[]"))
+    if told.get(b"sha256", b"").decode() != _checksum(arrays, failures, events):
+        raise ValueError(f"{path} holds other trajectories than were written")
     return arrays, failures, events
+
+
+def _checksum(arrays: Arrays, failures: Mapping[int, str], events: Sequence[str]) -> str:
+    """What is the same for equal chunks, and for no others: names and kinds of the columns, numbers, reasons."""
+    kinds = [(name, own.dtype.str, own.shape) for name, own in arrays.items()]
+    digest = hashlib.sha256(json.dumps([kinds, sorted(failures.items()), list(events)]).encode())
+    for own in arrays.values():
+        digest.update(own.tobytes())
+    return digest.hexdigest()

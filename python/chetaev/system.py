@@ -34,7 +34,7 @@ from .results import (
     Trajectory,
     writable,
 )
-from .texts import exact, toml
+from .texts import exact, shown, toml
 
 if TYPE_CHECKING:
     from .compiled import Compiled
@@ -126,7 +126,7 @@ class System(Shown):
             }
             content["constraints"] = {key: own if isinstance(own, Mapping) else exact(own) for key, own in named.items()}
         content.update({key: own for key, own in sections.items() if own is not None})
-        self._take(native.Model.from_text(toml({key: own for key, own in content.items() if not _is_empty(own)}), None, []))
+        self._take(native.Model.from_text(toml({key: own for key, own in content.items() if not _is_left_out(key, own)}), None, []))
 
     def _take(self, model: native.Model) -> System:
         self._native = model
@@ -375,7 +375,7 @@ class System(Shown):
         return isinstance(other, System) and self._native.texts() == other._native.texts()
 
     def __hash__(self) -> int:
-        return hash(self.text)
+        return hash(self._native.texts()[1])
 
     @property
     def name(self) -> str:
@@ -409,8 +409,8 @@ class System(Shown):
 
     @property
     def state(self) -> list[str]:
-        """Names of the components of the state: coordinates, masses with a law of their own, velocities. That of a constraint of a higher
-        order has accelerations too, and ``compile().state`` names them."""
+        """Names of the components of the state: coordinates, masses with a law of their own, velocities. Under a constraint of order m the derivatives
+        up to order m - 1 belong to it too; those of a form of the equations are the ``state`` of ``derive(…)[0]`` and of ``to_jax(…)``."""
         return self.coordinates + self.masses + self.velocities
 
     @property
@@ -431,14 +431,20 @@ class System(Shown):
 
     @property
     def text(self) -> str:
-        """The model file."""
-        return self._native.texts()[1]
+        """The model file, with the values that were set written into it; comments and order stay.
+
+        Raises
+        ------
+        ModelError
+            Where the file has no place for one of them, as for one of a family of parameters alone, or for one that other files take too.
+        """
+        return self._native.text()
 
     def __repr__(self) -> str:
         return f"<System {self.name}: coordinates {', '.join(self.coordinates)}; constraints {', '.join(self.constraints) or 'none'}>"
 
     def _html(self) -> str:
-        return notebook.unfolding(repr(self)[8:-1], notebook.preformatted(self.text))
+        return notebook.unfolding(repr(self)[8:-1], notebook.preformatted(shown(self._native)))
 
     def sympify(self, expressions: Sequence[str] | str, *, variables: Sequence[str] = ()) -> Any:
         """Expressions of the model notation in SymPy, exactly.
@@ -925,7 +931,8 @@ class System(Shown):
         stop_on_failure : bool
             Ends at the first trajectory that ends early or does not begin.
         out : path, optional
-            A folder to write ``sweep.npz`` and ``failures.csv`` into.
+            A folder that keeps the sweep, as the command does, with ``sweep.npz`` and ``failures.csv`` once it is complete: one that was interrupted
+            or killed goes on with the trajectories that are missing, whoever began it, and another one is refused.
         progress : bool
             Whether a progress bar is shown, where tqdm is installed.
         t_end, tolerance, step, method, precision, formulation, project, keep_integrals, branch
@@ -940,6 +947,8 @@ class System(Shown):
         ------
         Interrupted
             By Ctrl-C; its ``result`` has the trajectories that had ended.
+        OptionError
+            For a range that is none, and for a folder with another sweep.
 
         Examples
         --------
@@ -948,7 +957,7 @@ class System(Shown):
         >>> len(found)
         10
         """
-        from .sweeps import computed, ranges, table_text
+        from .sweeps import computed, kept, ranges, table_text
 
         samples, seed = whole("samples", samples, 0, _ROWS), whole("seed", seed, 0)
         count = None if count is None else whole("count", count, 1)
@@ -964,10 +973,10 @@ class System(Shown):
         writable(out)
         with _Progress(progress) as tell:
             prepared = self._anew().sweep(asked, varied, tell)
-            found, interrupted = computed(prepared, (0, prepared.count), threads, stop_on_failure, tell)
-        if out is not None:
-            found.save(out)
-            found._data["archive"] = os.path.join(os.fspath(out), "sweep.npz")
+            if out is None:
+                found, interrupted = computed(prepared, (0, prepared.count), threads, stop_on_failure, tell)
+            else:
+                found, interrupted = kept(prepared, out, threads, stop_on_failure, tell)
         if interrupted:
             raise Interrupted(found)
         return found
@@ -1211,6 +1220,11 @@ class System(Shown):
         -------
         Compiled
 
+        Raises
+        ------
+        ModelError
+            For constraints of order two and more, whose motion ``simulate`` computes.
+
         Examples
         --------
         >>> from scipy.integrate import solve_ivp
@@ -1332,9 +1346,9 @@ def _pairs(values: Mapping[str, Value] | None) -> list[tuple[str, str]]:
     return [(name, exact(value)) for name, value in mapping("values", values).items()]
 
 
-def _is_empty(section: Any) -> bool:
-    """Whether a section says nothing."""
-    return isinstance(section, Mapping) and not section
+def _is_left_out(name: str, section: Any) -> bool:
+    """Whether a section is not written: the Lagrangian of a system whose bodies have the energies. What is unknown is refused though it is empty."""
+    return name == "lagrangian" and not section
 
 
 def _asked(**options: Any) -> dict[str, Any]:
@@ -1378,6 +1392,7 @@ def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[st
         files = result._save(out)
         if is_told:
             result._data["files"] = files
+            result._folder = os.path.abspath(out)
     if outcome.interrupted:
         raise Interrupted(result)
     return result

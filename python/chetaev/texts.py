@@ -22,6 +22,14 @@ FUNCTIONS = {
 }
 
 
+def shown(model: Any) -> str:
+    """The file of a model to be looked at: with the values that were set, where it has a place for them."""
+    try:
+        return str(model.text())
+    except ModelError:
+        return str(model.texts()[1])
+
+
 def exact(value: Any) -> str:
     """A number or an expression as the exact text that a model file has.
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from chetaev import System
+from chetaev import ModelError, System
 
 RNG = np.random.default_rng(7)
 
@@ -228,3 +228,21 @@ def test_why_values_cannot_be_written_is_said(skate: System) -> None:
     one = y[0].copy()
     with pytest.raises(ValueError, match="shares memory with y"):
         f.rhs(0, one, one)
+
+
+def test_where_a_number_is_divided_by_zero_nothing_is_finite() -> None:
+    """x'' = -x'^2/x of 1/2 x^2 x'^2 has no value at x = 0, and no message either: y'' = 0 is known there."""
+    f = System("cone", coordinates=["x", "y"], kinetic="1/2 x^2 x'^2 + 1/2 y'^2").compile()
+    rates = f.rhs(0.0, [0.0, 0.0, 1.0, 0.0])
+    assert not np.isfinite(rates[2])
+    np.testing.assert_allclose(f.rhs(0.0, [2.0, 0.0, 1.0, 0.0]), [1, 0, -0.5, 0])
+    assert "not a number, or infinite" in " ".join((type(f).__doc__ or "").split())
+    assert "not a number, or infinite" in " ".join((type(f.rhs).__doc__ or "").split())
+
+
+def test_constraints_of_higher_order_are_refused_at_their_place() -> None:
+    system = System.from_gallery("fixed-acceleration")
+    with pytest.raises(ModelError, match="`push` is of order 2") as caught:
+        system.compile()
+    assert "x''^2 + y''^2 = alpha^2" in str(caught.value.text)
+    assert "compile" not in (type(system).state.__doc__ or "")

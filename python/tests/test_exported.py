@@ -143,3 +143,35 @@ def test_functions_and_residuals_are_shown(gallery: Path) -> None:
     assert "<td" in function and "def rhs" in function
     residuals = sleigh.to_opty()._repr_mimebundle_()
     assert "&= 0" in residuals["text/latex"] and "vanishes along the motion" in residuals["text/html"]
+
+
+@pytest.mark.parametrize("form", ["maggi", "volterra-first", "volterra-second"])
+def test_the_start_is_on_the_branch_that_simulate_follows(form: str) -> None:
+    """Gauss's principle takes the acceleration along the spring: x'' = alpha cos(theta) = -alpha at x = 1, y = 0, so theta = pi."""
+    found = System.from_gallery("fixed-acceleration").derive(form).to("python")
+    space: dict[str, Any] = {}
+    exec(found, space)
+    np.testing.assert_allclose(space["start"], [1, 0, 0, 0.8, np.pi], atol=1e-9)
+    rates = space["rhs"](0.0, space["start"], space["parameters"])
+    np.testing.assert_allclose(rates[2:4], [-1.5, 0], atol=1e-9)
+
+
+def test_the_start_of_jax_is_that_of_simulate() -> None:
+    pytest.importorskip("jax")
+    system = System.from_gallery("fixed-acceleration")
+    found = system.to_jax()
+    assert found.formulation == "maggi" and found.state[-1] == "theta"
+    assert found.start[-1] == pytest.approx(np.pi, abs=1e-9)
+    written = system.derive("maggi").to("c")
+    line = next(own for own in written.splitlines() if "at the start" in own)
+    assert "z = (0.0, 0.8, 3.14159265" in line
+
+
+def test_what_the_model_does_not_determine_has_no_start() -> None:
+    """The multiplier of an extremum is data of its own: stated, or no number; the velocities are known either way."""
+    system = System.from_gallery("particle-y-dx")
+    for own, kappa in [(system, np.nan), (system.with_initial({"kappa_rolling": 0.5}), 0.5)]:
+        space: dict[str, Any] = {}
+        exec(own.derive("vakonomic").to("python"), space)
+        # z' = y x'
+        np.testing.assert_allclose(space["start"], [0, 0.4, 0, 0.8, 1.1, 0.4 * 0.8, kappa])

@@ -118,3 +118,34 @@ def test_mistakes_are_raised(gallery: Path) -> None:
 def test_a_system_that_is_a_functional_says_where_it_belongs() -> None:
     with pytest.raises(ModelError, match=r"`chetaev.Functional` reads functionals"):
         System.from_text(STRING)
+
+
+def test_the_text_has_what_was_set() -> None:
+    text = """
+kind = "functional"
+name = "laplace" # of a membrane
+density = "1/2 T u,i u,i"
+domain = { coordinates = "x_i" }
+fields = { u = "scalar" }
+parameters = { T = {} }
+sizes = { d = 2 } # dimensions
+"""
+    changed = Functional.from_text(text).with_values(d=3, T="1/2")
+    assert changed.text == text.replace("d = 2", "d = 3").replace("T = {}", 'T = { value = "1/2" }')
+    again = Functional.from_text(changed.text)
+    assert again.dimensions == 3 and again.parameters == {"T": "1/2"}
+
+
+def test_what_other_files_take_too_is_no_text_of_one(gallery: Path) -> None:
+    """The dual of p3p1 is another file, which has the size by `set` only."""
+    own = Functional.from_file(gallery / "elasticity" / "p3p1" / "model.toml", set={"d": 1})
+    assert own.dimensions == 1
+    with pytest.raises(ModelError, match="`d`"):
+        _ = own.text
+    assert "p3p1" in own._repr_mimebundle_()["text/html"]
+
+
+def test_files_of_a_study_are_verified_with_it(tmp_path: Path) -> None:
+    study = Functional.from_gallery("fields/plate").study(claims="functional.euler", out=tmp_path)
+    found = {own["claim"]: own["result"] for own in study.verify().to_dict()}
+    assert found["report.html"] == "confirmed"

@@ -39,6 +39,7 @@ from chetaev.keywords import FLAGS, in_python
         ("`chetaev stability --over m=...` says", '`stability(over="m=...")` says'),
         ("::: --set initial.y'=1:1:9", "::: with_initial({\"y'\": 1}):1:9"),
         ("--> --set m=x:1:3", "--> with_values(m=x):1:3"),
+        ("in all variables, by --all, it is one", "in all variables, by all=True, it is one"),
         ("2 -- 3 stays, and so does x--y", "2 -- 3 stays, and so does x--y"),
     ],
 )
@@ -87,3 +88,12 @@ def test_exceptions_name_keywords() -> None:
         message = said(work)
         assert word in message, message
         assert re.search(r"--[a-z]", message) is None, message
+
+
+def test_reasons_name_keywords() -> None:
+    """Of trajectories that do not begin, of linear equations, of formulations that do not apply."""
+    sleigh = System.from_gallery("chaplygin-sleigh")
+    found = sleigh.sweep(initial={"x'": [0, 1], "y'": [1, 0]}, t_end=1)
+    assert found.failures and all("project=True" in own and "--" not in own for own in found.failures.values())
+    with pytest.raises(chetaev.ChetaevError, match="in all variables, by all=True, it is one"):
+        System.from_gallery("falling-rolling-disc").linearize(about="rolling", outputs=["phi"])

@@ -11,6 +11,7 @@ import threading
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from chetaev import System
 
@@ -82,24 +83,38 @@ def test_threads_use_one_system() -> None:
     assert wrong == []
 
 
-def test_subinterpreters_are_refused() -> None:
+#: An interpreter that shares the lock of the main one, which loads everything, and one that has a lock of its own where Python makes such.
+KINDS = ["legacy", "isolated"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("is_first", [True, False], ids=["before", "after"])
+def test_subinterpreters_are_refused(kind: str, is_first: bool) -> None:
+    """Whether they try before the main interpreter or after it, and the main one goes on with types of its own."""
     script = textwrap.dedent(
         """
+        import sys
+        kind, is_first = sys.argv[1], sys.argv[2] == "True"
         try:
             import _interpreters as interpreters
+            own = interpreters.create(kind)
         except ImportError:
             import _xxsubinterpreters as interpreters
-        import chetaev
-        own = interpreters.create()
+            own = interpreters.create(isolated=kind == "isolated")
+        if not is_first:
+            import chetaev
         try:
-            found = interpreters.run_string(own, "import chetaev")
+            found = interpreters.run_string(own, "import chetaev; chetaev.System.from_gallery('chaplygin-sleigh').compile()")
             said = "" if found is None else str(getattr(found, "formatted", found))
         except Exception as problem:
             said = str(problem)
         print(said)
-        assert chetaev.System("p", coordinates=["x"], kinetic="1/2 x'^2").check().ok
+        interpreters.destroy(own)
+        import chetaev
+        f = chetaev.System.from_gallery("chaplygin-sleigh").compile()
+        assert len(f.rhs(0.0, f.start)) == 6
         """
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", script, kind, str(is_first)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert "interpreter" in done.stdout
+    assert "ImportError" in done.stdout and "interpreter" in done.stdout.replace("RunFailedError", ""), done.stdout

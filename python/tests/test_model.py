@@ -229,3 +229,74 @@ def test_a_parameter_may_be_called_self() -> None:
 def test_a_keyword_of_another_kind_is_told_by_its_name(work: Any, said: str) -> None:
     with pytest.raises(TypeError, match=re.escape(said)):
         work(oscillator())
+
+
+COMMENTED = """# A point on a spring.
+name = "spring"
+coordinates = ["x"]
+
+[parameters]
+m = 2 # mass
+k = { value = 3, description = "stiffness" } # of the spring
+J = "2 m"
+
+[lagrangian]
+T = "1/2 m x'^2" # of Newton
+V = "1/2 k x^2"
+
+[initial]
+x = 1
+"""
+
+
+def test_the_text_has_what_was_set() -> None:
+    system = System.from_text(COMMENTED, set={"k": 5}).with_values(m=Fraction(1, 3)).with_initial({"x'": "sqrt(2)", "x": 0.5})
+    expected = COMMENTED.replace("m = 2 #", 'm = "1/3" #').replace("value = 3", "value = 5").replace("x = 1", "x = 0.5\n\"x'\" = \"sqrt(2)\"")
+    assert system.text == expected
+    again = System.from_text(system.text)
+    assert again.parameters == system.parameters == {"m": "1/3", "k": "5", "J": "2/3"}
+    assert again.initial == {"x": "0.5", "x'": "sqrt(2)"}
+    assert "1/3" in system._repr_mimebundle_()["text/html"]
+    assert System.from_text(COMMENTED).text == COMMENTED
+
+
+def test_the_text_of_keywords_and_of_bodies_has_what_was_set() -> None:
+    point = System("point", coordinates=["x"], parameters={"m": 2, "c": None}, kinetic="1/2 m x'^2")
+    assert System.from_text(point.with_values(m=4, c=1).text).parameters == {"m": "4", "c": "1"}
+    wheel = System(
+        "wheel", parameters={"r": 0.3}, bodies={"wheel": {"shape": "disc", "mass": 2, "radius": "r"}},
+        contacts={"road": {"type": "rolling", "body": "wheel", "coordinates": ["x", "y", "heading", "lean", "roll"]}},
+    )
+    changed = wheel.with_values(r="1/4", wheel_mass=3, g=2)
+    assert System.from_text(changed.text).parameters == changed.parameters == {"r": "1/4", "wheel_mass": "3", "g": "2"}
+
+
+def test_what_the_text_has_no_place_for_is_told() -> None:
+    """One of a family: its line states all of them."""
+    text = """
+        name = "row"
+        sizes = { N = 2 }
+        indices = { i = "1..N" }
+        coordinates = ["x_{i}"]
+        parameters = { "m_{i}" = 1 }
+        lagrangian = { T = "sum(i = 1..N, 1/2 m_{i} x_{i}'^2)" }
+    """
+    system = System.from_text(text)
+    assert system.with_values(N=3).text == text.replace("N = 2", "N = 3")
+    changed = system.with_values(m_1=4)
+    assert changed.parameters == {"m_1": "4", "m_2": "1"}
+    with pytest.raises(ModelError, match="`m_1`"):
+        _ = changed.text
+    assert "m_{i}" in changed._repr_mimebundle_()["text/html"]
+    assert pickle.loads(pickle.dumps(changed)).parameters == changed.parameters
+
+
+@pytest.mark.parametrize("content", [{}, {"a": 1}, "1"])
+def test_an_unknown_section_is_refused_whatever_it_has(content: Any) -> None:
+    with pytest.raises(ModelError, match="`konstraints` is no key of a model file"):
+        System("point", coordinates=["x"], kinetic="1/2 x'^2", konstraints=content)
+
+
+def test_an_empty_section_says_nothing() -> None:
+    point = System("point", coordinates=["x"], kinetic="1/2 x'^2", constraints={}, parameters={}, initial={}, simulation={}, steady={})
+    assert point.constraints == [] and point.parameters == {} and point.check().ok

@@ -272,13 +272,24 @@ def test_undetermined_multipliers_are_explained() -> None:
         "System.from_gallery('double-pendulum').sensitivity('l', [20000.0])",
         "motion.animate(seconds=20, width=1600, height=900)",
         "f.jac(0.0, np.zeros((6_000_000, 6)))",
+        "System.from_gallery('watt-governor').follow(over='eps=0.1:1', points=3000, step=1e-5)",
+        "System.from_gallery('watt-governor').follow(over='eps=0.1:1', points=2**32 - 1, step=1e-12)",
+        "large.check()",
+        "large.derive('routh')",
+        "large.compile().jac",
+        "System.from_text(text(80_000))",
+        "[Functional.from_gallery('elasticity/p3p1').derive() for _ in range(1000)]",
     ],
 )
 def test_ctrl_c_ends_long_work(work: str) -> None:
     script = f"""
         import os, signal, threading, time
         import numpy as np
-        from chetaev import System
+        from chetaev import Functional, System
+        def text(count):
+            terms = "+".join(f"sin({{k}} x)" for k in range(1, count))
+            return f"name = 'sum'\\ncoordinates = ['x']\\nlagrangian = {{{{ T = \\"1/2 x'^2\\", V = '{{terms}}' }}}}"
+        large = System.from_text(text(30_000))
         # What runs in the background may have been started with interrupts ignored.
         signal.signal(signal.SIGINT, signal.default_int_handler)
         motion = System.from_gallery("chaplygin-sleigh").simulate(t_end=5)
@@ -574,3 +585,15 @@ def test_whatever_stands_for_a_model_is_shown(sleigh: System) -> None:
 def test_models_of_the_gallery_are_a_sequence() -> None:
     names = list(chetaev.gallery.list())
     assert chetaev.gallery.list()[:3] == names[:3] and chetaev.gallery.list()[-1] == names[-1]
+
+
+def test_files_of_a_study_are_verified_with_it(tmp_path: Path) -> None:
+    """As the command does with the record: what was changed since is told."""
+    sleigh = System.from_gallery("chaplygin-sleigh")
+    study = sleigh.study(claims="energy.integral", t_end=1, out=tmp_path)
+    beside = chetaev.verify(tmp_path / "study.json").to_dict()
+    assert study.verify().to_dict() == beside
+    assert {own["claim"] for own in beside} == {"energy.integral", "report.html"}
+    (tmp_path / "report.html").write_text("another")
+    assert not study.verify().agrees
+    assert len(sleigh.study(claims="energy.integral", t_end=1).verify().to_dict()) == 1

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import random
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
 import sympy as sp
 
+import chetaev
 from chetaev import System
 
 # All of it in a full run, as the long tests in Rust.
@@ -119,3 +121,17 @@ def test_linear_equations_along_a_motion_are_arrays() -> None:
     assert slope == pytest.approx(found.transition[-1][:, 1], abs=1e-7)
     shown = found._repr_mimebundle_()["text/html"]
     assert "exponent 1" in shown and "A(0)" in shown
+
+
+@pytest.mark.parametrize(
+    ("asked", "what"),
+    [
+        (lambda system: system.sensitivity("k", [0.0, 1.0]), "sensitivities"),
+        (lambda system: system.along(), "linear equations along a motion"),
+        (lambda system: system.follow(orbit=True, period="1"), "periodic orbits"),
+    ],
+    ids=["sensitivity", "along", "orbit"],
+)
+def test_what_constraints_of_higher_order_have_not_is_called_by_its_name(asked: Any, what: str) -> None:
+    with pytest.raises(chetaev.OptionError, match=f"^{what} are computed for constraints on velocities; this system has constraints of order 2"):
+        asked(System.from_gallery("fixed-acceleration"))

@@ -6,11 +6,15 @@ import concurrent.futures
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
+import textwrap
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from conftest import program
 from test_commands import said
 
 import chetaev
@@ -290,3 +294,145 @@ def test_names_of_a_statement_in_sympy_are_names_of_columns() -> None:
         found = system.sweep(vary={key: squares}, t_end=1)
         np.testing.assert_allclose(found["end_x"], np.cos(np.sqrt(squares)), rtol=1e-8)
         assert system.sensitivity([key], [0.0, 1.0])["d x/d x_lambda"][1] == pytest.approx(-np.sin(1) / 2, rel=1e-7)
+
+
+def test_an_ensemble_of_nothing_is_told_by_its_name(sleigh: System, tmp_path: Path) -> None:
+    for out in (None, tmp_path):
+        with pytest.raises(chetaev.OptionError, match="`a` is empty: one value for each trajectory is needed"):
+            chetaev.ensemble(sleigh, parameters={"a": []}, out=out, t_end=1)
+    with pytest.raises(chetaev.OptionError, match="`a` is empty"):
+        sleigh.sweep(rows={"a": np.array([])}, t_end=1)
+
+
+class Client:
+    """A client of Dask by its module, of which the first result is waited for when Ctrl-C comes."""
+
+    def __init__(self) -> None:
+        self.submitted: list[Any] = []
+        self.cancelled: list[list[Any]] = []
+
+    def submit(self, *_: Any, key: str) -> Any:
+        class Pending:
+            def result(self) -> Any:
+                raise KeyboardInterrupt
+
+            def cancel(self) -> None:
+                raise AssertionError("one by one")
+
+        self.submitted.append(Pending())
+        return self.submitted[-1]
+
+    def cancel(self, futures: list[Any]) -> None:
+        self.cancelled.append(list(futures))
+
+
+Client.__module__ = "distributed.client"
+
+
+def test_what_a_client_has_not_begun_is_given_up_at_once(sleigh: System) -> None:
+    client = Client()
+    with pytest.raises(chetaev.Interrupted):
+        chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, executor=client, chunk=1)
+    assert len(client.submitted) == 12
+    assert client.cancelled == [client.submitted]
+
+
+def test_what_was_handed_over_when_ctrl_c_came_is_given_up(sleigh: System) -> None:
+    class Interrupting(Client):
+        def submit(self, *_: Any, key: str) -> Any:
+            if len(self.submitted) == 3:
+                raise KeyboardInterrupt
+            return super().submit(key=key)
+
+    Interrupting.__module__ = "distributed.client"
+    client = Interrupting()
+    with pytest.raises(chetaev.Interrupted):
+        chetaev.ensemble(sleigh, parameters=VARIED, t_end=1, executor=client, chunk=1)
+    assert client.cancelled == [client.submitted] and len(client.submitted) == 3
+
+
+@pytest.mark.parametrize("part", [b"vary_a", b"end_x", b"drift_energy"])
+def test_a_name_of_which_a_bit_has_turned_is_computed_again(sleigh: System, part: bytes, tmp_path: Path) -> None:
+    """`vary_a` and vary_` differ in one bit; both are names of columns."""
+    pytest.importorskip("pyarrow")
+    asked: Any = {"parameters": VARIED, "t_end": 1, "chunk": 6, "out": tmp_path}
+    alone = chetaev.ensemble(sleigh, **asked)
+    for path in tmp_path.iterdir():
+        own = path.read_bytes()
+        # Everywhere: columns are named in the schema, in the footer and in the schema of Arrow.
+        broken = own.replace(part, part[:-1] + bytes([part[-1] ^ 1]))
+        assert broken != own
+        path.write_bytes(broken)
+        same(alone, chetaev.ensemble(sleigh, **asked))
+        assert path.read_bytes() != broken
+
+
+ASKED = ["--vary", "a=0.1:0.5:40", "--t-end", "3"]
+VARY: Any = {"vary": {"a": "0.1:0.5:40"}, "t_end": 3}
+
+
+def test_a_folder_is_kept_as_the_command_keeps_it(sleigh: System, command: Any, gallery: Path, tmp_path: Path) -> None:
+    """Either goes on with what the other has left, and the files are the same."""
+    path = str(gallery / "chaplygin-sleigh" / "model.toml")
+    told = command("sweep", path, *ASKED, "--out", str(tmp_path / "theirs"))
+    ours = sleigh.sweep(**VARY, out=tmp_path / "ours")
+    assert ours.to_dict() == told | {"archive": str(tmp_path / "ours" / "sweep.npz")}
+    names = {own.name for own in (tmp_path / "theirs").iterdir()}
+    assert names == {"sweep.json", "sweep.lock", "sweep.npz", "sweep.sha256", "failures.csv"}
+    for name in names:
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
+    archive = tmp_path / "theirs" / "sweep.npz"
+    before = archive.stat().st_mtime_ns
+    again = sleigh.sweep(**VARY, out=tmp_path / "theirs")
+    same(again, ours)
+    assert again.to_dict()["taken_over"] == 40 and archive.stat().st_mtime_ns == before
+    assert "is complete" in said_of("sweep", path, *ASKED, "--out", str(tmp_path / "ours"))
+
+
+def said_of(*arguments: str) -> str:
+    """Everything that the command says."""
+    done = subprocess.run([str(program()), *arguments], capture_output=True, text=True, check=True)
+    return done.stdout + done.stderr
+
+
+def test_a_folder_with_another_sweep_is_left_alone(sleigh: System, tmp_path: Path) -> None:
+    found = sleigh.sweep(vary={"a": [0.1, 0.2]}, t_end=1, out=tmp_path)
+    before = (tmp_path / "sweep.npz").read_bytes()
+    with pytest.raises(chetaev.OptionError, match="holds another sweep: what differs: variations.*with out=…"):
+        sleigh.sweep(vary={"a": [0.1, 0.3]}, t_end=1, out=tmp_path)
+    with pytest.raises(FileExistsError, match="a sweep is kept there"):
+        found.save(tmp_path)
+    assert (tmp_path / "sweep.npz").read_bytes() == before
+
+
+def test_a_sweep_that_ended_at_a_failure_goes_on(tmp_path: Path) -> None:
+    """1/2 x^2 x'^2 falls to x = 0, where it ends early; x' > 0 does not."""
+    system = System("cone", coordinates=["x"], kinetic="1/2 x^2 x'^2", initial={"x": 1})
+    asked: Any = {"initial": {"x'": [1, -1, 2, -2]}, "t_end": 3}
+    whole = system.sweep(**asked)
+    assert sorted(whole.failures) == [1, 3]
+    first = system.sweep(**asked, out=tmp_path, stop_on_failure=True, threads=1)
+    assert first.failures and first.to_dict()["archive"] is None
+    assert not (tmp_path / "sweep.npz").exists()
+    again = system.sweep(**asked, out=tmp_path)
+    same(whole, again)
+    assert again.failures == whole.failures and again.to_dict()["taken_over"] == len(first)
+
+
+def test_a_sweep_that_ctrl_c_ended_goes_on(sleigh: System, tmp_path: Path) -> None:
+    script = f"""
+        import os, signal, threading
+        import chetaev
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sleigh = chetaev.System.from_gallery("chaplygin-sleigh")
+        threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+        try:
+            sleigh.sweep(vary={{"a": "0.1:0.5:200000"}}, t_end=20, threads=1, out={str(tmp_path)!r})
+        except chetaev.Interrupted as stopped:
+            found = stopped.result
+            assert found["vary_a"].tolist() == sorted(found["vary_a"]) and len(found["end_x"]) == len(found)
+            print(len(found))
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, check=True)
+    assert 0 < int(done.stdout) < 200_000, done
+    assert {own.name for own in tmp_path.iterdir()} >= {"sweep.json", "sweep.data", "sweep.journal"}

@@ -24,6 +24,8 @@
 
 pub mod checker;
 pub mod disk;
+pub mod files;
+pub mod store;
 
 pub use chetaev_compile as compile;
 pub use chetaev_ensemble as ensemble;

@@ -3,9 +3,7 @@
 mod arguments;
 mod commands;
 mod files;
-mod lock;
 mod progress;
-mod store;
 mod terminal;
 
 use arguments::{Arguments, Command};

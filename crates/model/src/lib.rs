@@ -23,6 +23,7 @@ mod text;
 mod toml;
 pub mod units;
 mod where_clause;
+mod written;
 
 pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};
@@ -33,3 +34,4 @@ pub use model::{Model, Precision};
 pub use render::{DiagnosticData, PlaceData, RelatedData, Style, SuggestionData};
 pub use source::{joined, Files, LineColumn, NoFiles, Place, Source, SourceId, Sources};
 pub use text::Text;
+pub use written::with_values;

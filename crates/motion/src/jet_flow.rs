@@ -104,84 +104,8 @@ impl<'a> JetFlow<'a> {
         let masses = system.masses.iter().zip(&start.q[system.n()..]);
         known.extend(masses.map(|(m, &value)| (m.symbol, value)));
         known.extend(&jets.values);
-        let value = |s: &Symbol| known.iter().find(|(own, _)| own == s).map(|(_, x)| *x);
-        let open: Vec<Symbol> = self
-            .current
-            .symbols
-            .iter()
-            .copied()
-            .filter(|s| value(s).is_none())
-            .collect();
-        let found = match open.is_empty() {
-            true => Vec::new(),
-            false => self.parameters(equations, start.t, &known, &open)?,
-        };
-        let of = |s: &Symbol| {
-            let own = open.iter().position(|o| o == s).map(|place| found[place]);
-            value(s).or(own).unwrap_or(0.0)
-        };
-        Ok(self.current.symbols.iter().map(of).collect())
-    }
-
-    /// Parameters P with `φ(t, …, P) = q^(m)` at the start, by Newton's method from several starting points.
-    fn parameters(
-        &self,
-        equations: &Equations,
-        t: f64,
-        known: &[(Symbol, f64)],
-        open: &[Symbol],
-    ) -> Result<Vec<f64>, FlowError> {
-        let Parts {
-            system,
-            terms,
-            binding,
-            formulation,
-        } = self.parts;
-        let g = &system.graph;
-        let phi = match terms.order {
-            1 => &equations.velocities,
-            _ => &equations
-                .on_characteristics
-                .as_ref()
-                .map(|(c, _)| &c.velocities)
-                .unwrap_or(&equations.highest)
-                .clone(),
-        };
-        let value = |s: Symbol| known.iter().find(|(own, _)| *own == s).map(|(_, x)| *x);
-        let targets: Vec<f64> = terms
-            .jets
-            .iter()
-            .map(|c| value(c.v_symbol).unwrap_or(0.0))
-            .collect();
-        let (symbols, numbers): (Vec<Symbol>, Vec<f64>) = known.iter().copied().unzip();
-        let variables = with_time(g, &[&symbols[..], open].concat());
-        let gradient = g.jacobian(phi, open).concat();
-        let groups = [("phi", phi.clone()), ("gradient", gradient)];
-        let mut functions = Functions::new(g, binding, &variables, &groups)?;
-        let size = open.len();
-        let all: Vec<usize> = (0..size).collect();
-        let mut generator = chetaev_mechanics::sample::Generator::new(3);
-        let reach = targets.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
-        for attempt in 0..60 {
-            let mut x: Vec<f64> = (0..size)
-                .map(|_| generator.between(0.0, if attempt % 2 == 0 { reach } else { 3.2 }))
-                .collect();
-            for _ in 0..60 {
-                if functions.evaluate(t, &[&numbers, &x]).is_err() {
-                    break;
-                }
-                let pairs = functions.group(0).iter().zip(&targets);
-                let f: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-                if f.iter().all(|f| f.abs() <= 1e-12 * reach) {
-                    return Ok(x);
-                }
-                let step = least_squares(functions.group(1), &f, size, &all);
-                x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
-            }
-        }
-        Err(FlowError::Start {
-            formulation: formulation.card().name,
-        })
+        let symbols = &self.current.symbols;
+        self.parts.at_start(equations, start.t, &known, symbols)
     }
 
     /// Layout of the rows: q, q', q'', multipliers, and derivatives of orders 3 to m.

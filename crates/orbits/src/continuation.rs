@@ -9,10 +9,13 @@ use crate::error::OrbitError;
 use crate::hopf::WithoutLyapunov;
 use crate::solution::{is_done, is_solved, ordinary, scale, unscaled};
 use crate::subspace::{decomposed, kernel, least_squares};
+use chetaev_symbolic::meter::spend;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Steps to the next point.
 const STEPS: usize = 20;
+/// Work that an evaluation of the equations counts as; somebody may stop it there.
+const EVALUATION: u64 = 5_000;
 /// Lengths of steps along the curve, in units of the range and of the size of the unknowns.
 const FIRST: f64 = 0.02;
 const SHORTEST: f64 = 1e-7;
@@ -135,6 +138,7 @@ impl Walk<'_> {
 
     /// F and the conditions of the cut, with their derivatives.
     fn system(&mut self, y: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
+        spend(EVALUATION);
         let (x, p) = self.unpack(y);
         let own = self.equations.evaluate(&x, p)?;
         let (rows, m) = (own.residual.len(), x.len());

@@ -1,9 +1,9 @@
 //! Equations of motion as functions over NumPy arrays.
 
 use crate::address::{Data, Door};
-use crate::problem;
 use crate::program::{Program, Ready};
 use crate::texts::Pairs;
+use crate::{problem, waiting};
 use chetaev::compile::{backend, BlockEvaluator, EvaluateFailure, Lanes, Lowering, LANES};
 use chetaev::mechanics::characteristics::CharacteristicsError;
 use chetaev::mechanics::{Prepared, System};
@@ -38,8 +38,13 @@ pub(crate) enum NotCompiled {
     #[error(transparent)]
     Functions(#[from] FunctionsError),
     /// The state of such a system is more than positions and velocities.
-    #[error("constraints of order {0}: the state is more than positions and velocities; `simulate` computes the motion")]
-    Order(u32),
+    #[error("the constraint `{constraint}` is of order {order}: the state is more than positions and velocities; `simulate` computes the motion")]
+    HigherOrder {
+        /// One of the highest order.
+        constraint: String,
+        /// m.
+        order: u32,
+    },
 }
 
 /// The equations of motion of a system with the values of its parameters, compiled when they are first asked for. The state y is
@@ -83,8 +88,12 @@ impl Compiled {
         let defined = model.defines.iter().chain(&model.sensors);
         let defined: Vec<_> = defined.map(|own| (own.name.clone(), own.value)).collect();
         let prepared = start::prepared(model, system)?;
-        if prepared.terms.order > 1 {
-            return Err(NotCompiled::Order(prepared.terms.order));
+        let higher = system.constraints.iter().filter(|own| own.order > 1);
+        if let Some(highest) = higher.max_by_key(|own| own.order) {
+            return Err(NotCompiled::HigherOrder {
+                constraint: highest.name.clone(),
+                order: highest.order,
+            });
         }
         let binding = Binding::new(system)?.with_following(g, &following(model));
         let origin = Origin {
@@ -279,8 +288,7 @@ impl Compiled {
                 "there is no function `{what}`"
             )));
         };
-        let program = py
-            .detach(|| self.program(what))
+        let program = waiting::whole(py, None, |_| self.program(what))?
             .map_err(|problem| problem::of_option(py, &problem))?;
         let usual = || self.binding.parameters.iter().map(|own| own.1).collect();
         let parameters = parameters.unwrap_or_else(usual);
@@ -314,7 +322,7 @@ impl Compiled {
 /// Returns
 /// -------
 /// array
-///     The values; not a number where the equations have no solution.
+///     The values; where the equations have no solution they are not finite: not a number, or infinite where a number is divided by zero.
 #[pyclass(frozen, module = "chetaev.chetaev_native")]
 pub(crate) struct Function {
     program: Arc<Program>,

@@ -1,12 +1,12 @@
 //! A functional of fields over space, and what can be asked of it.
 
-use crate::texts::{files_beside, text_at, Pairs};
+use crate::texts::{files_beside, not_written, text_at, with_overrides, Pairs};
 use crate::{problem, waiting};
 use chetaev::functionals::read::reload;
 use chetaev::functionals::study::USUAL_BUDGET as BUDGET;
-use chetaev::functionals::{self, Loaded, Problem};
+use chetaev::functionals::{self, Problem};
 use chetaev::model::model::ModelText;
-use chetaev::model::{self, Files, Sources, Style};
+use chetaev::model::{self, Diagnostics, Files, Sources, Style};
 use chetaev::study::functional::{
     derivation, is_selected, page, record, selected, studied, summary,
 };
@@ -27,6 +27,7 @@ pub(crate) struct Functional {
 }
 
 /// What a functional states, in words.
+#[derive(PartialEq)]
 struct Known {
     name: String,
     level: Option<String>,
@@ -69,45 +70,57 @@ fn known(problem: &Problem) -> Known {
 }
 
 impl Functional {
-    fn of(py: Python<'_>, loaded: Loaded) -> PyResult<Functional> {
-        let Some(problem) = loaded.problem else {
-            return Err(problem::of_model(py, &loaded.diagnostics));
-        };
-        let warnings = if loaded.diagnostics.list.is_empty() {
-            String::new()
-        } else {
-            loaded.diagnostics.render(Style::Plain)
-        };
-        Ok(Functional {
-            known: known(&problem),
-            text: problem.text,
-            warnings,
-        })
-    }
-
     /// Reads a text that states a functional.
     fn load(
         py: Python<'_>,
         (path, text): (&str, &str),
-        files: &dyn Files,
+        files: &(dyn Files + Sync),
         overrides: &[(String, String)],
     ) -> PyResult<Functional> {
-        let tables = model::tables(path, text, files, &[], Sources::default());
-        if tables.table.is_some() && !tables.is_functional() {
-            let said = format!(
-                "{path} states a motion: chetaev.System reads it; a functional has kind = \"functional\""
-            );
-            return Err(problem::named(py, "ModelError", (said, "[]".to_owned())));
-        }
-        Functional::of(py, functionals::load(path, text, files, overrides))
+        let read = waiting::whole(py, None, |_| {
+            let tables = model::tables(path, text, files, &[], Sources::default());
+            if tables.table.is_some() && !tables.is_functional() {
+                return Err(NotRead::Motion);
+            }
+            let loaded = functionals::load(path, text, files, overrides);
+            let diagnostics = loaded.diagnostics;
+            let Some(problem) = loaded.problem else {
+                return Err(NotRead::Wrong(Box::new(diagnostics)));
+            };
+            let is_said = !diagnostics.list.is_empty();
+            let warnings = is_said.then(|| diagnostics.render(Style::Plain));
+            Ok(Functional {
+                known: known(&problem),
+                text: problem.text,
+                warnings: warnings.unwrap_or_default(),
+            })
+        })?;
+        read.map_err(|problem| match problem {
+            NotRead::Wrong(found) => problem::of_model(py, &found),
+            NotRead::Motion => {
+                let said = format!(
+                    "{path} states a motion: chetaev.System reads it; a functional has kind = \"functional\""
+                );
+                problem::named(py, "ModelError", (said, "[]".to_owned()))
+            }
+        })
     }
+}
 
-    /// What was read when the functional was made is read again.
-    fn again(&self, py: Python<'_>) -> PyResult<Problem> {
-        let loaded = reload(&self.text);
-        let found = loaded.problem;
-        found.ok_or_else(|| problem::of_model(py, &loaded.diagnostics))
-    }
+/// Why a text states no functional.
+enum NotRead {
+    /// It states a motion.
+    Motion,
+    /// What is wrong with it.
+    Wrong(Box<Diagnostics>),
+}
+
+/// Why there are no equations.
+enum NotDerived {
+    /// The text is not read any more.
+    Read(Box<Diagnostics>),
+    /// They cannot be derived.
+    Derived(String),
 }
 
 #[pymethods]
@@ -155,6 +168,17 @@ impl Functional {
         (own.path, own.text, own.includes, own.overrides)
     }
 
+    /// The model file with the values that were set written into it.
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let found = waiting::whole(py, None, |_| {
+            with_overrides(&self.text, |written| {
+                let read = reload(written).problem;
+                read.is_some_and(|read| known(&read) == self.known)
+            })
+        })?;
+        found.ok_or_else(|| not_written(py, &self.text))
+    }
+
     /// Its name.
     #[getter]
     fn name(&self) -> &str {
@@ -191,10 +215,10 @@ impl Functional {
     }
 
     /// Everything wrong or doubtful, as it is printed and as JSON; and whether there are errors.
-    fn check(&self) -> (String, String, bool) {
-        let found = reload(&self.text).diagnostics;
+    fn check(&self, py: Python<'_>) -> PyResult<(String, String, bool)> {
+        let found = waiting::whole(py, None, |_| reload(&self.text).diagnostics)?;
         let data = serde_json::to_string(&found.to_data()).unwrap_or_default();
-        (found.render(Style::Plain), data, found.has_errors())
+        Ok((found.render(Style::Plain), data, found.has_errors()))
     }
 
     /// Euler equations and conditions on the boundary in a notation: `derive`.
@@ -206,9 +230,19 @@ impl Functional {
             );
             return Err(problem::of_option(py, &said));
         };
-        let problem = self.again(py)?;
-        derivation(&problem.functional, format)
-            .map_err(|why| problem::named(py, "NotDerivedError", (why.to_string(), "[]".into())))
+        let found = waiting::whole(py, None, |_| {
+            // What was read when the functional was made is read again.
+            let loaded = reload(&self.text);
+            let Some(problem) = loaded.problem else {
+                return Err(NotDerived::Read(Box::new(loaded.diagnostics)));
+            };
+            let found = derivation(&problem.functional, format);
+            found.map_err(|why| NotDerived::Derived(why.to_string()))
+        })?;
+        found.map_err(|why| match why {
+            NotDerived::Read(found) => problem::of_model(py, &found),
+            NotDerived::Derived(said) => problem::named(py, "NotDerivedError", (said, "[]".into())),
+        })
     }
 
     /// Claims with their verdicts: the record as JSON, the summary, the report, and whether everything is as the model expects.
@@ -222,7 +256,7 @@ impl Functional {
         let words =
             selected(claims).map_err(|why| problem::of_option(py, &format!("claims: {why}")))?;
         let text = &self.text;
-        let found = waiting::done(py, tell, |hooks| {
+        let found = waiting::whole(py, tell, |hooks| {
             (hooks.progress)("deciding", None);
             let problem = reload(text).problem?;
             let study = studied(problem, &|id| is_selected(&words, id), BUDGET, hooks);
@@ -233,10 +267,7 @@ impl Functional {
                 is_as_expected: study.is_as_expected(),
             })
         })?;
-        if found.interrupted {
-            return Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(()));
-        }
-        let Some(own) = found.result else {
+        let Some(own) = found else {
             return Err(problem::of_model(py, &reload(text).diagnostics));
         };
         Ok((own.record, own.summary, own.page, own.is_as_expected))

@@ -4,7 +4,7 @@ use crate::compiled::Compiled;
 use crate::linear::Linear;
 use crate::outcome::Outcome;
 use crate::sweep::{Sweep, Varied};
-use crate::texts::{files_beside, text_at, Pairs};
+use crate::texts::{files_beside, not_written, text_at, with_overrides, Pairs};
 use crate::{problem, waiting};
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
 use chetaev::model::model::{ModelText, Precision};
@@ -18,11 +18,10 @@ use chetaev::study::steady::steady;
 use chetaev::study::sweep::SweepOptions;
 use chetaev::study::written::{self, NotWritten, Notation};
 use chetaev::study::{
-    beside, check, diagnostics, explanation, follow, interruptible, registry, sensitivity,
-    stability, study, ClaimSelection, StudyError, StudyOptions,
+    beside, check, diagnostics, explanation, follow, registry, sensitivity, stability, study,
+    ClaimSelection, StudyError, StudyOptions,
 };
 use chetaev::symbolic::print::{sympy_module, Document, Options, PythonSection};
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 /// A model that was read without errors.
@@ -138,6 +137,33 @@ impl Model {
         asked.kappa.iter().map(value).collect()
     }
 
+    /// A Python module with these expressions in SymPy.
+    fn in_sympy(&self, texts: &[String], variables: &[String]) -> Result<String, Box<Diagnostics>> {
+        let read = |text: &String| self.model.expression_in(text, variables);
+        let read: Result<Vec<_>, _> = texts.iter().map(read).collect();
+        let read = read.map_err(Box::new)?;
+        let g = &self.model.graph;
+        let moving = |symbol| {
+            let name = g.symbol_name(symbol);
+            self.model.varies(name)
+                || self.model.mass_rate(name).is_some()
+                || variables.iter().any(|own| own == name)
+        };
+        let moving: Vec<String> = g
+            .symbols_in(&read)
+            .into_iter()
+            .filter(|&symbol| moving(symbol))
+            .map(|symbol| g.symbol_name(symbol).to_owned())
+            .collect();
+        let document = Document::expressions(g, &read, &Options::default());
+        let section = PythonSection {
+            name: "found",
+            title: "Expressions",
+            groups: vec![("all", &document)],
+        };
+        Ok(sympy_module(&[section], &moving))
+    }
+
     fn not_steady(&self, py: Python<'_>, problem: &stability::StabilityError) -> PyErr {
         match problem {
             stability::StabilityError::System(problem) => {
@@ -176,21 +202,16 @@ impl Model {
         work: impl FnOnce(&Context<'_>, &dyn Fn(&str)) -> Result<String, NotWritten> + Send,
     ) -> PyResult<(String, Vec<String>)> {
         let system = self.system(py)?;
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("deriving", None);
-                let (prepared, notes) = written::prepared(&self.model, &system)?;
-                let known = registry();
-                let (terms, selection) = (&prepared.terms, &prepared.selection);
-                let cx = Context::new(&system, terms, selection, &known, Prover::default());
-                let show = std::cell::RefCell::new(&mut hooks.progress);
-                let text = work(&cx, &|what: &str| (show.borrow_mut())(what, None));
-                Ok((text, notes))
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("deriving", None);
+            let (prepared, notes) = written::prepared(&self.model, &system)?;
+            let known = registry();
+            let (terms, selection) = (&prepared.terms, &prepared.selection);
+            let cx = Context::new(&system, terms, selection, &known, Prover::default());
+            let show = std::cell::RefCell::new(&mut hooks.progress);
+            let text = work(&cx, &|what: &str| (show.borrow_mut())(what, None));
+            Ok((text, notes))
         })?;
-        let Ok(found) = found.result else {
-            return Err(PyKeyboardInterrupt::new_err(()));
-        };
         let found = found.map_err(
             |problem: chetaev::mechanics::characteristics::CharacteristicsError| {
                 problem::of_system(py, &problem, self.place())
@@ -214,7 +235,7 @@ impl Model {
     #[staticmethod]
     fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Model> {
         let (text, files) = (text_at(path)?, files_beside(Some(path)));
-        let loaded = py.detach(|| model::load(path, &text, &*files, &overrides));
+        let loaded = waiting::whole(py, None, |_| model::load(path, &text, &*files, &overrides))?;
         Model::of(py, loaded)
     }
 
@@ -228,7 +249,7 @@ impl Model {
     ) -> PyResult<Model> {
         let files = files_beside(path);
         let path = path.unwrap_or("model.toml");
-        let loaded = py.detach(|| model::load(path, text, &*files, &overrides));
+        let loaded = waiting::whole(py, None, |_| model::load(path, text, &*files, &overrides))?;
         Model::of(py, loaded)
     }
 
@@ -247,7 +268,7 @@ impl Model {
             includes,
             overrides,
         };
-        let loaded = py.detach(|| model::reload(&text));
+        let loaded = waiting::whole(py, None, |_| model::reload(&text))?;
         Model::of(py, loaded)
     }
 
@@ -257,13 +278,27 @@ impl Model {
         (own.path, own.text, own.includes, own.overrides)
     }
 
+    /// The model file with the values that were set written into it.
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let own = &self.model.text;
+        let found = waiting::whole(py, None, |_| {
+            with_overrides(own, |written| {
+                let read = model::reload(written).model;
+                read.is_some_and(|read| numbers(&read) == numbers(&self.model))
+            })
+        })?;
+        found.ok_or_else(|| not_written(py, own))
+    }
+
     /// The model with its bodies, joints and contacts written out as coordinates, energies and constraints.
     fn lowered(&self, py: Python<'_>) -> PyResult<String> {
         let own = &self.model.text;
         let files: std::collections::BTreeMap<String, String> =
             own.includes.iter().cloned().collect();
-        model::lowered(&own.path, &own.text, &files, &own.overrides)
-            .map_err(|found| problem::of_model(py, &found))
+        waiting::whole(py, None, |_| {
+            model::lowered(&own.path, &own.text, &files, &own.overrides)
+        })?
+        .map_err(|found| problem::of_model(py, &found))
     }
 
     /// Its name.
@@ -334,40 +369,16 @@ impl Model {
         texts: Vec<String>,
         variables: Vec<String>,
     ) -> PyResult<String> {
-        let read = |text: &String| self.model.expression_in(text, &variables);
-        let read: Result<Vec<_>, _> = texts.iter().map(read).collect();
-        let read = read.map_err(|found| problem::of_model(py, &found))?;
-        let g = &self.model.graph;
-        let moving = |symbol| {
-            let name = g.symbol_name(symbol);
-            self.model.varies(name)
-                || self.model.mass_rate(name).is_some()
-                || variables.iter().any(|own| own == name)
-        };
-        let moving: Vec<String> = g
-            .symbols_in(&read)
-            .into_iter()
-            .filter(|&symbol| moving(symbol))
-            .map(|symbol| g.symbol_name(symbol).to_owned())
-            .collect();
-        let document = Document::expressions(g, &read, &Options::default());
-        let section = PythonSection {
-            name: "found",
-            title: "Expressions",
-            groups: vec![("all", &document)],
-        };
-        Ok(sympy_module(&[section], &moving))
+        let found = waiting::whole(py, None, |_| self.in_sympy(&texts, &variables))?;
+        found.map_err(|found| problem::of_model(py, &found))
     }
 
     /// Everything wrong or doubtful, as it is printed and as JSON; and whether there are errors.
     fn check(&self, py: Python<'_>) -> PyResult<(String, String, bool)> {
         let mut found = self.warnings.clone();
         found.list.extend(self.model.unused.iter().cloned());
-        let checked = waiting::done(py, None, |hooks| check(&self.model, hooks))?;
-        match checked.result {
-            Ok(()) => {}
-            Err(StudyError::Interrupted) => return Err(PyKeyboardInterrupt::new_err(())),
-            Err(problem) => found.list.extend(diagnostics(&problem, &self.model)),
+        if let Err(problem) = waiting::whole(py, None, |hooks| check(&self.model, hooks))? {
+            found.list.extend(diagnostics(&problem, &self.model));
         }
         let data = serde_json::to_string(&found.to_data()).unwrap_or_default();
         Ok((found.render(Style::Plain), data, found.has_errors()))
@@ -516,13 +527,9 @@ impl Model {
         };
         let variations = varied.variations(&self.model);
         let variations = variations.map_err(|problem| problem.raised(py))?;
-        let found = waiting::done(py, tell, |hooks| {
-            let made = interruptible(hooks, |hooks| {
-                chetaev::study::sweep::Sweep::new(&self.model, variations, options, hooks)
-            });
-            made.unwrap_or(Err(StudyError::Interrupted))
+        let made = waiting::whole(py, tell, |hooks| {
+            chetaev::study::sweep::Sweep::new(&self.model, variations, options, hooks)
         })?;
-        let made = found.result;
         made.map(Sweep::new)
             .map_err(|problem| problem::of_study(py, &problem, self.place()))
     }
@@ -535,16 +542,13 @@ impl Model {
         symbolic: bool,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, String)> {
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("steady motions", None);
-                steady(&self.model, symbolic).map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("steady motions", None);
+            steady(&self.model, symbolic).map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
-            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+        match found {
+            Ok(found) => Ok((found.text(), found.json().to_string())),
+            Err(problem) => Err(self.not_followed(py, *problem)),
         }
     }
 
@@ -565,24 +569,21 @@ impl Model {
         step: f64,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, String)> {
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("following", None);
-                let wanted = follow::Wanted {
-                    about: about.as_deref(),
-                    over: over.as_deref(),
-                    orbit,
-                    period: period.as_deref(),
-                    points: Some(points),
-                    step: Some(step),
-                };
-                follow::follow(&self.model, &wanted).map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("following", None);
+            let wanted = follow::Wanted {
+                about: about.as_deref(),
+                over: over.as_deref(),
+                orbit,
+                period: period.as_deref(),
+                points: Some(points),
+                step: Some(step),
+            };
+            follow::follow(&self.model, &wanted).map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
-            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+        match found {
+            Ok(found) => Ok((found.text(), found.json().to_string())),
+            Err(problem) => Err(self.not_followed(py, *problem)),
         }
     }
 
@@ -596,40 +597,34 @@ impl Model {
         at: Option<&str>,
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, String, String)> {
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                let what = "map of stability";
-                (hooks.progress)(what, None);
-                let wanted = stability::Wanted {
-                    about,
-                    at,
-                    over: Some(over),
-                    ..stability::Wanted::default()
-                };
-                let mut tell = |part| (hooks.progress)(what, Some(part));
-                stability::map::map(&self.model, &wanted, &mut tell).map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            let what = "map of stability";
+            (hooks.progress)(what, None);
+            let wanted = stability::Wanted {
+                about,
+                at,
+                over: Some(over),
+                ..stability::Wanted::default()
+            };
+            let mut tell = |part| (hooks.progress)(what, Some(part));
+            stability::map::map(&self.model, &wanted, &mut tell).map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok((found.text(), found.json().to_string(), found.picture())),
-            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+        match found {
+            Ok(found) => Ok((found.text(), found.json().to_string(), found.picture())),
+            Err(problem) => Err(self.not_steady(py, &problem)),
         }
     }
 
     /// Linear equations along the motion from the initial state, in words and as JSON: `linearize --along`.
     #[pyo3(signature = (tell=None))]
     fn along(&self, py: Python<'_>, tell: Option<&Bound<'_, PyAny>>) -> PyResult<(String, String)> {
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("linear equations along the motion", None);
-                sensitivity::along_motion(&self.model).map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("linear equations along the motion", None);
+            sensitivity::along_motion(&self.model).map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok((found.text(), found.json().to_string())),
-            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+        match found {
+            Ok(found) => Ok((found.text(), found.json().to_string())),
+            Err(problem) => Err(self.not_followed(py, *problem)),
         }
     }
 
@@ -649,21 +644,18 @@ impl Model {
             ..StudyOptions::default()
         };
         let order = if second { Order::Second } else { Order::First };
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("sensitivities", None);
-                sensitivity::sensitivity(&self.model, by, order, &times, &options).map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("sensitivities", None);
+            sensitivity::sensitivity(&self.model, by, order, &times, &options).map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => {
+        match found {
+            Ok(found) => {
                 let names = std::iter::once("t".to_owned()).chain(found.columns());
                 let rows = found.rows.iter();
                 let row = |(t, own): &(f64, Vec<f64>)| [vec![*t], own.clone()].concat();
                 Ok((names.collect(), rows.map(row).collect()))
             }
-            Ok(Err(problem)) => Err(self.not_followed(py, *problem)),
+            Err(problem) => Err(self.not_followed(py, *problem)),
         }
     }
 
@@ -676,46 +668,40 @@ impl Model {
         tell: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Linear> {
         let wanted: Linearized = wanted.extract()?;
-        let found = waiting::done(py, tell, |hooks| {
-            interruptible(hooks, |hooks| {
-                (hooks.progress)("linear equations", None);
-                stability::stability(
-                    &self.model,
-                    &stability::Wanted {
-                        about: wanted.about.as_deref(),
-                        speeds: wanted.speeds.as_deref(),
-                        outputs: wanted.outputs.as_deref(),
-                        symbolic: wanted.symbolic,
-                        numbers: wanted.numbers,
-                        all: wanted.all,
-                        over: wanted.over.as_deref(),
-                        at: wanted.at.as_deref(),
-                        work: None,
-                    },
-                )
-                .map_err(Box::new)
-            })
+        let found = waiting::whole(py, tell, |hooks| {
+            (hooks.progress)("linear equations", None);
+            stability::stability(
+                &self.model,
+                &stability::Wanted {
+                    about: wanted.about.as_deref(),
+                    speeds: wanted.speeds.as_deref(),
+                    outputs: wanted.outputs.as_deref(),
+                    symbolic: wanted.symbolic,
+                    numbers: wanted.numbers,
+                    all: wanted.all,
+                    over: wanted.over.as_deref(),
+                    at: wanted.at.as_deref(),
+                    work: None,
+                },
+            )
+            .map_err(Box::new)
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok(Linear::new(found)),
-            Ok(Err(problem)) => Err(self.not_steady(py, &problem)),
+        match found {
+            Ok(found) => Ok(Linear::new(found)),
+            Err(problem) => Err(self.not_steady(py, &problem)),
         }
     }
 
     /// The time and the consistent state from which the motion starts: coordinates, masses with a law of their own, velocities.
     fn start(&self, py: Python<'_>) -> PyResult<(f64, Vec<f64>)> {
         let system = self.system(py)?;
-        let found = waiting::done(py, None, |hooks| {
-            interruptible(hooks, |_| {
-                let prepared = start::prepared(&self.model, &system).map_err(StudyError::from)?;
-                start_state(&self.model, &system, (&prepared.terms, &prepared.selection))
-            })
+        let found = waiting::whole(py, None, |_| {
+            let prepared = start::prepared(&self.model, &system).map_err(StudyError::from)?;
+            start_state(&self.model, &system, (&prepared.terms, &prepared.selection))
         })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok((found.t, found.state.iter().map(|own| own.1).collect())),
-            Ok(Err(problem)) => Err(problem::of_study(py, &problem, self.place())),
+        match found {
+            Ok(found) => Ok((found.t, found.state.iter().map(|own| own.1).collect())),
+            Err(problem) => Err(problem::of_study(py, &problem, self.place())),
         }
     }
 
@@ -743,15 +729,37 @@ impl Model {
     /// The equations of motion as functions of numbers.
     fn compile(&self, py: Python<'_>) -> PyResult<Compiled> {
         let system = self.system(py)?;
-        let found = waiting::done(py, None, |hooks| {
-            interruptible(hooks, |_| Compiled::new(&self.model, &system))
-        })?;
-        match found.result {
-            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
-            Ok(Ok(found)) => Ok(found),
-            Ok(Err(problem)) => Err(problem::of_system(py, &problem, self.place())),
+        let found = waiting::whole(py, None, |_| Compiled::new(&self.model, &system))?;
+        match found {
+            Ok(found) => Ok(found),
+            Err(problem) => Err(problem::of_system(py, &problem, self.place())),
         }
     }
+}
+
+/// What values that are set can change of a model: sizes and with them names, parameters, initial data; in no order of the file.
+fn numbers(model: &chetaev::model::Model) -> Vec<String> {
+    let g = &model.graph;
+    let coordinates = model.coordinates.iter().map(|own| own.name.clone());
+    let parameters = model.parameters.iter().map(|own| {
+        let value = own.definition.map(|value| g.text(value));
+        format!("{} = {value:?}", own.name)
+    });
+    let initial = &model.initial;
+    let values = initial.values.iter().map(|(at, own)| {
+        let value = g.text(own.value);
+        format!("{at:?} = {value}, {}", own.is_guess)
+    });
+    let extra = initial.extra.iter();
+    let extra = extra.map(|own| format!("{} {} = {}", own.name, own.order, g.text(own.value)));
+    let masses = model.masses.iter().map(|own| {
+        let initial = model.initial_mass(&own.name).map(|value| g.text(value));
+        format!("{} = {initial:?}", own.name)
+    });
+    let all = coordinates.chain(parameters).chain(values);
+    let mut all: Vec<String> = all.chain(extra).chain(masses).collect();
+    all.sort();
+    all
 }
 
 /// Formulations by their names, or all of them.
@@ -797,16 +805,10 @@ pub(crate) fn verify(
     checksum: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, bool)> {
     use chetaev::study::verify::{agrees, files, read, verify, Verified, VerifyError};
-    let wrong = |problem: VerifyError| match problem {
-        VerifyError::Study(StudyError::Interrupted) => PyKeyboardInterrupt::new_err(()),
-        problem => problem::of_option(py, &problem),
-    };
+    let wrong = |problem: VerifyError| problem::of_option(py, &problem);
     let record = read(record).map_err(wrong)?;
-    let found = waiting::done(py, tell, |hooks| verify(&record, budget, hooks))?;
-    if found.interrupted {
-        return Err(PyKeyboardInterrupt::new_err(()));
-    }
-    let mut lines = found.result.map_err(wrong)?;
+    let found = waiting::whole(py, tell, |hooks| verify(&record, budget, hooks))?;
+    let mut lines = found.map_err(wrong)?;
     if let Some(checksum) = checksum {
         let mut failure = None;
         lines.extend(files(&record, &mut |name| {

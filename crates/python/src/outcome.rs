@@ -3,10 +3,10 @@
 use crate::{problem, waiting};
 use chetaev::study::picture::{self, Scene, View};
 use chetaev::study::table::Table;
-use chetaev::study::{interruptible, page, record, story, summary, Hooks, Study};
+use chetaev::study::{page, record, story, summary, Study};
 use chetaev::symbolic::meter::spend;
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 /// Claims with their verdicts, and the motion.
@@ -78,7 +78,7 @@ impl Outcome {
 
     /// The report, one HTML page.
     fn page(&self, py: Python<'_>, files: Vec<String>) -> PyResult<String> {
-        interruptibly(py, None, |_| page::page(&self.study, None, &files))
+        waiting::whole(py, None, |_| page::page(&self.study, None, &files))
     }
 
     /// Names of the columns, and the columns as the rows of one array.
@@ -131,10 +131,10 @@ impl Outcome {
             time,
             ghosts,
         };
-        let drawn = py.detach(|| match format {
+        let drawn = waiting::whole(py, None, |_| match format {
             "png" => picture::png(&scene, &view),
             _ => picture::svg(&scene, &view).map(String::into_bytes),
-        });
+        })?;
         drawn.map_err(|problem| PyValueError::new_err(problem.to_string()))
     }
 
@@ -158,7 +158,7 @@ impl Outcome {
             _ => 2.0,
         };
         let seconds = seconds.unwrap_or(length);
-        let drawn = interruptibly(py, tell, |hooks| {
+        let drawn = waiting::whole(py, tell, |hooks| {
             picture::film(&scene, &view, seconds, &mut |part| {
                 (hooks.progress)("drawing", Some(part));
                 spend(UNITS_OF_A_FRAME);
@@ -176,16 +176,6 @@ impl Outcome {
 
 /// A frame counts as a moment, after which it is looked whether somebody interrupted.
 const UNITS_OF_A_FRAME: u64 = 1_000_000;
-
-/// Does what only an interruption ends.
-fn interruptibly<T: Send>(
-    py: Python<'_>,
-    tell: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&mut Hooks<'_>) -> T + Send,
-) -> PyResult<T> {
-    let found = waiting::done(py, tell, |hooks| interruptible(hooks, work))?;
-    found.result.map_err(|_| PyKeyboardInterrupt::new_err(()))
-}
 
 impl Outcome {
     fn drawn(&self) -> PyResult<Scene> {

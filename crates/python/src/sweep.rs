@@ -6,6 +6,7 @@ use chetaev::ensemble::pool::{self, Batch};
 use chetaev::ensemble::{Kind, Outcome};
 use chetaev::model::model::Model;
 use chetaev::model::Diagnostics;
+use chetaev::store::{self, Ended, NotKept, Opened};
 use chetaev::study::sweep::together::{Together, VariationError, Variations};
 use chetaev::study::sweep::vary::{rows, Variation};
 use chetaev::study::sweep::Sweep as Prepared;
@@ -13,6 +14,7 @@ use chetaev::study::Hooks;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// What varies.
@@ -112,6 +114,16 @@ impl Sweep {
     }
 }
 
+/// Numbers of trajectories, the columns, the failures with their reasons.
+type Arrays<'py> = (
+    Bound<'py, PyArray1<u64>>,
+    Vec<Bound<'py, PyAny>>,
+    Vec<(u64, String)>,
+);
+
+/// How many trajectories a folder had before, what is to be said of it, what it has of a sweep that is not complete, and whether Ctrl-C ended it.
+type Kept<'py> = (u64, Option<String>, Option<Arrays<'py>>, bool);
+
 /// Numbers of trajectories, the columns, the failures with their reasons, and whether Ctrl-C ended it.
 type Computed<'py> = (
     Bound<'py, PyArray1<u64>>,
@@ -157,9 +169,7 @@ impl Sweep {
         stop_on_failure: bool,
         tell: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Computed<'py>> {
-        let threads = threads.unwrap_or_else(|| {
-            std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
-        });
+        let threads = threads.unwrap_or_else(all_threads);
         let last = last.min(self.prepared.count());
         let found = waiting::done(py, tell, |hooks| {
             let rows = self.rows((first, last), (threads, stop_on_failure), hooks);
@@ -167,6 +177,91 @@ impl Sweep {
             (self.prepared.columns().encode(&rows), count)
         })?;
         let (bytes, count) = found.result;
+        let (indices, arrays, failures) = self.decoded(py, count, &bytes)?;
+        Ok((indices, arrays, failures, found.interrupted))
+    }
+
+    /// The sweep in a folder as the command keeps it: what is there is taken over, and what is missing computed.
+    #[pyo3(signature = (folder, threads=None, stop_on_failure=false, tell=None))]
+    fn keep<'py>(
+        &self,
+        py: Python<'py>,
+        folder: PathBuf,
+        threads: Option<usize>,
+        stop_on_failure: bool,
+        tell: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Kept<'py>> {
+        let with = (threads.unwrap_or_else(all_threads), stop_on_failure);
+        let found = waiting::done(py, tell, |hooks| self.kept(&folder, with, hooks))?;
+        let kept = found.result;
+        let kept = kept.map_err(|problem| problem::of_option(py, &problem))?;
+        let part = match kept.part {
+            Some((count, bytes)) => Some(self.decoded(py, count, &bytes)?),
+            None => None,
+        };
+        Ok((kept.taken, kept.note, part, found.interrupted))
+    }
+}
+
+/// What was done in a folder.
+struct InFolder {
+    /// How many trajectories were there before.
+    taken: u64,
+    /// What is to be said.
+    note: Option<String>,
+    /// What is there of a sweep that is not complete: how many trajectories, and one batch of them.
+    part: Option<(usize, Vec<u8>)>,
+}
+
+fn all_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
+}
+
+impl Sweep {
+    fn kept(
+        &self,
+        folder: &Path,
+        with: (usize, bool),
+        hooks: &mut Hooks<'_>,
+    ) -> Result<InFolder, NotKept> {
+        let own = &self.prepared;
+        let mut store = match store::open(folder, own)? {
+            Opened::Begun(store) => store,
+            Opened::Complete(_) => {
+                return Ok(InFolder {
+                    taken: own.count(),
+                    note: None,
+                    part: None,
+                })
+            }
+        };
+        let mut found = InFolder {
+            taken: store.written(),
+            note: store.note().map(str::to_owned),
+            part: None,
+        };
+        let never = AtomicBool::new(false);
+        let interrupt = hooks.interrupt.unwrap_or(&never);
+        let is_over = with.1 && store.failure().is_some();
+        let ended = if is_over {
+            Ended::Interrupted
+        } else {
+            store.compute(own, with, interrupt, &mut |written, _| {
+                let done = written as f64 / own.count().max(1) as f64;
+                (hooks.progress)("computing trajectories", Some(done));
+            })?
+        };
+        if ended == Ended::Complete {
+            store.finish()?;
+        } else {
+            found.part = Some(store.batches()?);
+            store.leave()?;
+        }
+        Ok(found)
+    }
+
+    /// A batch as arrays: numbers of the trajectories, columns, failures.
+    fn decoded<'py>(&self, py: Python<'py>, count: usize, bytes: &[u8]) -> PyResult<Arrays<'py>> {
         let columns = self.prepared.columns();
         let mut arrays = Vec::with_capacity(columns.list.len());
         for (at, column) in columns.list.iter().enumerate() {
@@ -183,13 +278,9 @@ impl Sweep {
             };
             arrays.push(array);
         }
-        let indices = chetaev::ensemble::Columns::indices(count, &bytes);
-        Ok((
-            PyArray1::from_vec(py, indices),
-            arrays,
-            columns.failures(count, &bytes),
-            found.interrupted,
-        ))
+        let indices = chetaev::ensemble::Columns::indices(count, bytes);
+        let indices = PyArray1::from_vec(py, indices);
+        Ok((indices, arrays, columns.failures(count, bytes)))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Long work on a thread of its own, while the thread of Python hears signals and shows progress.
 
-use chetaev::study::Hooks;
+use chetaev::study::{interruptible, Hooks};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,22 @@ pub(crate) struct Done<T> {
     pub(crate) interrupted: bool,
 }
 
-/// Does `work` without holding the interpreter. `tell` is called with what is being done and which part of it is done, in [0, 1] or `None`.
+/// Does work of which nothing is kept where Ctrl-C came: it is stopped wherever it counts what it does, and what ended nevertheless is not given.
+///
+/// # Errors
+/// `KeyboardInterrupt`, and as [`done`].
+pub(crate) fn whole<T: Send>(
+    py: Python<'_>,
+    tell: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&mut Hooks<'_>) -> T + Send,
+) -> PyResult<T> {
+    let found = done(py, tell, |hooks| interruptible(hooks, work))?;
+    let is_whole = !found.interrupted;
+    let result = found.result.ok().filter(|_| is_whole);
+    result.ok_or_else(|| PyKeyboardInterrupt::new_err(()))
+}
+
+/// Does `work` without holding the interpreter; what it gave until Ctrl-C is the caller's to keep. `tell` is called with what is being done and which part of it is done, in [0, 1] or `None`.
 ///
 /// # Errors
 /// An exception of `tell` or of a handler of signals, other than `KeyboardInterrupt`; a panic of the work.

@@ -78,6 +78,14 @@ pub enum FollowError {
     /// A motion that goes on along other components of the constraints.
     #[error("the linear equations are those along one component of the constraints; leave `crossings` out of [simulation], and end the run where components meet")]
     Crossings,
+    /// Constraints that are not on velocities.
+    #[error("{what} are computed for constraints on velocities; this system has constraints of order {order}")]
+    HigherOrder {
+        /// What was asked for.
+        what: &'static str,
+        /// m.
+        order: u32,
+    },
     /// A step that is none.
     #[error("a step along the curve lies between 0 and 1, of which 1 is the whole range; {step} does not")]
     Step {
@@ -126,6 +134,9 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
         control.law.get_or_insert(zero);
     }
     let prepared = start::prepared(model, &system)?;
+    if wanted.orbit {
+        on_velocities(&prepared, "periodic orbits")?;
+    }
     let range = wanted.over.map(|text| range(model, text)).transpose()?;
     let (about, point) = state(model, &system, &prepared, wanted)?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);
@@ -146,6 +157,15 @@ pub fn follow(model: &Model, wanted: &Wanted<'_>) -> Result<Followed, FollowErro
         }
         other => other,
     }
+}
+
+/// Refuses constraints of order two and more.
+pub(crate) fn on_velocities(prepared: &Prepared, what: &'static str) -> Result<(), FollowError> {
+    let order = prepared.terms.order;
+    if order > 1 {
+        return Err(FollowError::HigherOrder { what, order });
+    }
+    Ok(())
 }
 
 /// What is followed from where.

@@ -5,7 +5,7 @@
     reason = "an error is made once, and told at once"
 )]
 
-use crate::follow::{initial, FollowError};
+use crate::follow::{initial, on_velocities, FollowError};
 use crate::options::StudyOptions;
 use crate::start;
 use crate::start::{initial_data, settings};
@@ -21,10 +21,11 @@ use chetaev_orbits::{Flow, OrbitError};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
 
-/// The system of a model on the component of its constraints on which the motion starts.
-fn of_motion(model: &Model) -> Result<(System, Prepared), FollowError> {
+/// The system of a model on the component of its constraints on which the motion starts, to answer what was asked.
+fn of_motion(model: &Model, what: &'static str) -> Result<(System, Prepared), FollowError> {
     let system = System::from_model(model)?;
     let prepared = start::prepared(model, &system)?;
+    on_velocities(&prepared, what)?;
     if !model.simulation.crossings.is_empty() {
         return Err(FollowError::Crossings);
     }
@@ -42,7 +43,7 @@ pub fn sensitivity(
     times: &[f64],
     options: &StudyOptions,
 ) -> Result<Sensitivities, FollowError> {
-    let (system, prepared) = of_motion(model)?;
+    let (system, prepared) = of_motion(model, "sensitivities")?;
     let data = initial_data(model, &system, options)?;
     let is_fixed = |s| {
         let place = |all: Vec<_>| all.iter().position(|own| *own == s);
@@ -103,7 +104,7 @@ const ROWS: f64 = 10.0;
 /// # Errors
 /// [`FollowError`].
 pub fn along_motion(model: &Model) -> Result<AlongMotion, FollowError> {
-    let (system, prepared) = of_motion(model)?;
+    let (system, prepared) = of_motion(model, "linear equations along a motion")?;
     let options = StudyOptions::default();
     let data = initial_data(model, &system, &options)?;
     let point = initial((model, &system, &prepared), &options)?;

@@ -192,14 +192,7 @@ pub fn start_state(
     system: &System,
     chosen: (&MotionTerms, &Selection),
 ) -> Result<StartState, StudyError> {
-    let mut own = system.clone();
-    let g = &system.graph;
-    let constrained = g.symbols_in(&chosen.0.constraints);
-    let acts = |name: &str| constrained.iter().any(|&s| g.symbol_name(s) == name);
-    let open = own.controls.iter_mut().filter(|u| u.law.is_none());
-    for control in open.filter(|u| !acts(&u.name)) {
-        control.law = Some(g.zero());
-    }
+    let own = without_open_controls(system, chosen.0);
     if system.parameters.iter().any(|p| p.value.is_none())
         || own.controls.iter().any(|u| u.law.is_none())
     {
@@ -231,6 +224,19 @@ pub fn start_state(
             .collect(),
         beyond: at.jets.map(|jets| jets.values).unwrap_or_default(),
     })
+}
+
+/// The system with zero in the place of controls that have no law and that no constraint contains: they do not matter for a start.
+pub(crate) fn without_open_controls(system: &System, terms: &MotionTerms) -> System {
+    let mut own = system.clone();
+    let g = &system.graph;
+    let constrained = g.symbols_in(&terms.constraints);
+    let acts = |name: &str| constrained.iter().any(|&s| g.symbol_name(s) == name);
+    let open = own.controls.iter_mut().filter(|u| u.law.is_none());
+    for control in open.filter(|u| !acts(&u.name)) {
+        control.law = Some(g.zero());
+    }
+    own
 }
 
 /// Initial data or a time span say that a motion is wanted.
@@ -434,9 +440,8 @@ fn initial_masses(model: &Model, system: &System) -> Result<Vec<f64>, StudyError
         .collect()
 }
 
-/// How the motion is computed: options, else the model, else the program decides.
 /// Initial values of what is no coordinate, such as `kappa_NAME`.
-fn own_values(model: &Model, system: &System) -> Result<Vec<(String, f64)>, StudyError> {
+pub(crate) fn own_values(model: &Model, system: &System) -> Result<Vec<(String, f64)>, StudyError> {
     let values = system.parameter_values();
     let extra = model.initial.extra.iter().filter(|own| own.order == 0);
     extra
@@ -450,6 +455,7 @@ fn own_values(model: &Model, system: &System) -> Result<Vec<(String, f64)>, Stud
         .collect()
 }
 
+/// How the motion is computed: options, else the model, else the program decides.
 pub(crate) fn settings(
     model: &Model,
     system: &System,

@@ -4,16 +4,16 @@ use super::{error, listen, options, refuse, with_hooks, INTERRUPTED};
 use crate::arguments::Sweep as Arguments;
 use crate::files::Read;
 use crate::progress::ProgressLine;
-use crate::store::{self, Asked, Failure, Opened, Stops, Store, ARCHIVE, FAILURES};
 use crate::{files, terminal, DONE, INPUT, STOPPED};
-use chetaev::ensemble::pool::{self, Batch};
 use chetaev::model::Diagnostics;
+use chetaev::store::{
+    self, stops_in_words, Ended, Failure, NotKept, Opened, Stops, Store, ARCHIVE, FAILURES,
+};
 use chetaev::study::sweep::together::{Together, Variations};
 use chetaev::study::sweep::vary::{rows, Variation};
 use chetaev::study::sweep::{Sweep, SweepOptions};
 use chetaev::study::{interruptible, StudyError};
 use serde_json::{json, Map, Value};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
@@ -121,17 +121,9 @@ fn set_and_varied<'v>(arguments: &Arguments, variations: &'v Variations) -> Opti
     names.find(|name| set.contains(name))
 }
 
-fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, String> {
+fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, NotKept> {
     let count = sweep.count();
-    let description = sweep.description();
-    let stops = stops_in_words(sweep);
-    let asked = Asked {
-        description: &description,
-        columns: sweep.columns(),
-        count,
-        stops: &stops,
-    };
-    let mut store = match store::open(folder, &asked)? {
+    let mut store = match store::open(folder, sweep)? {
         Opened::Complete(failure) => {
             let told = format!("{} is complete; nothing was computed", folder.display());
             say(arguments, &told);
@@ -140,6 +132,9 @@ fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, 
         }
         Opened::Begun(store) => store,
     };
+    if let Some(note) = store.note() {
+        terminal::err(note);
+    }
     let taken = store.written();
     if taken > 0 && !arguments.json {
         terminal::err(&format!(
@@ -157,7 +152,7 @@ fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, 
     let ended = super::with_progress(|line| {
         let with = (threads, arguments.stop_on_failure);
         compute(sweep, &mut store, with, line)
-    });
+    })?;
     match ended {
         Ended::Complete => {
             let stops = store.finish()?;
@@ -176,7 +171,6 @@ fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, 
             store.leave()?;
             Ok(failed(sweep, &failure))
         }
-        Ended::Disk(problem) => Err(problem),
     }
 }
 
@@ -189,55 +183,22 @@ fn failed(sweep: &Sweep, (index, reason): &Failure) -> u8 {
     STOPPED
 }
 
-/// How the computation ended.
-enum Ended {
-    Complete,
-    Interrupted,
-    /// A trajectory failed and the sweep was to end at the first.
-    Failed(Failure),
-    /// A batch cannot be written.
-    Disk(String),
-}
-
 fn compute(
     sweep: &Sweep,
     store: &mut Store,
-    (threads, stop_on_failure): (usize, bool),
+    with: (usize, bool),
     line: &ProgressLine,
-) -> Ended {
+) -> Result<Ended, NotKept> {
     let (count, taken, began) = (sweep.count(), store.written(), line.seconds());
-    let mut failures = 0;
-    let mut ended = Ended::Complete;
-    let work = sweep.work();
-    let missing = store.missing();
     line.show(&format!("computing {count} trajectories"), None);
-    let sink = |batch: Batch| {
-        let rows = batch.into_iter();
-        let rows: Vec<_> = rows.map(|(i, o)| (i, sweep.values(i), o)).collect();
-        if let Err(problem) = store.append(&rows) {
-            ended = Ended::Disk(problem);
-            return ControlFlow::Break(());
-        }
-        let done = store.written() - taken;
-        failures += rows.iter().filter(|(.., o)| o.stop.is_failure()).count();
+    store.compute(sweep, with, &INTERRUPTED, &mut |written, failures| {
+        let done = (written - taken, taken, count);
         let told = match line.is_painted() {
-            true => told((done, taken, count), failures, line.seconds() - began),
+            true => told(done, failures, line.seconds() - began),
             false => format!("computing {count} trajectories"),
         };
-        line.show(&told, Some((done + taken) as f64 / count as f64));
-        match store.failure().filter(|_| stop_on_failure) {
-            Some(failure) => {
-                ended = Ended::Failed(failure.clone());
-                ControlFlow::Break(())
-            }
-            None => ControlFlow::Continue(()),
-        }
-    };
-    pool::run(&*work, (&missing, threads), &INTERRUPTED, sink);
-    match ended {
-        Ended::Complete if store.written() < count => Ended::Interrupted,
-        ended => ended,
-    }
+        line.show(&told, Some(written as f64 / count as f64));
+    })
 }
 
 /// Trajectories, their rate, and the time that is left.
@@ -252,21 +213,6 @@ fn told((done, taken, count): (u64, u64, u64), failures: usize, seconds: f64) ->
         "{} of {count} trajectories, {rate:.0} per second, {left:.0} s left{failed}",
         done + taken
     )
-}
-
-/// What the numbers of the column `stop` mean.
-fn stops_in_words(sweep: &Sweep) -> Vec<(i64, String)> {
-    let mut words = vec![
-        (0, "the end of the time span was reached".to_owned()),
-        (1, "ended early; the reason is in failures.csv".to_owned()),
-        (2, "did not begin; the reason is in failures.csv".to_owned()),
-    ];
-    let events = sweep.events();
-    let events = (10..)
-        .zip(events)
-        .map(|(number, name)| (number, format!("event {name}")));
-    words.extend(events);
-    words
 }
 
 fn values_in_words(sweep: &Sweep, index: u64) -> String {

@@ -6,6 +6,7 @@ use crate::formulation_flow::{rates_of_state, FlowError};
 use crate::functions::Functions;
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
+use crate::least_norm::least_squares;
 use crate::numeric::Binding;
 use crate::series::RateSeries;
 use crate::watch::{masses_and_speeds, vanishing_parts, Watch, Watched};
@@ -102,6 +103,77 @@ impl Parts<'_> {
             series: None,
         };
         Ok((equations, compiled))
+    }
+
+    /// The values of symbols of the state at the start: those that are known, and parameters that the user's formulas introduce, which are solved
+    /// for.
+    ///
+    /// # Errors
+    /// [`FlowError::MissingData`] for what the derivatives do not depend on; [`FlowError::Start`] where no solution is found.
+    pub fn at_start(
+        self,
+        equations: &Equations,
+        t: f64,
+        known: &[(Symbol, f64)],
+        symbols: &[Symbol],
+    ) -> Result<Vec<f64>, FlowError> {
+        let value = |s: &Symbol| known.iter().find(|(own, _)| own == s).map(|(_, x)| *x);
+        let own = symbols.iter().copied();
+        let open: Vec<Symbol> = own.filter(|s| value(s).is_none()).collect();
+        let mut found = Vec::new();
+        if !open.is_empty() {
+            found = self.parameters(equations, t, known, &open)?;
+        }
+        let of = |s: &Symbol| {
+            let own = open.iter().position(|o| o == s).map(|place| found[place]);
+            value(s).or(own).unwrap_or(0.0)
+        };
+        Ok(symbols.iter().map(of).collect())
+    }
+
+    /// The derivatives of the highest order as functions of the state, q' for order one.
+    fn characteristics(self, equations: &Equations) -> &[Expr] {
+        if self.terms.order == 1 {
+            return &equations.velocities;
+        }
+        let stated = equations.on_characteristics.as_ref();
+        stated.map_or(&equations.highest, |(own, _)| &own.velocities)
+    }
+
+    /// Parameters P with `φ(t, …, P) = q^(m)` at the start, by Newton's method from several starting points.
+    fn parameters(
+        self,
+        equations: &Equations,
+        t: f64,
+        known: &[(Symbol, f64)],
+        open: &[Symbol],
+    ) -> Result<Vec<f64>, FlowError> {
+        let g = &self.system.graph;
+        let formulation = self.formulation.card().name;
+        let phi = self.characteristics(equations).to_vec();
+        let present = g.symbols_in(&phi);
+        let missing: Vec<Symbol> = (open.iter().copied())
+            .filter(|s| !present.contains(s))
+            .collect();
+        if !missing.is_empty() {
+            return Err(FlowError::MissingData {
+                formulation,
+                names: quoted(missing.into_iter().map(|s| g.symbol_text(s))),
+            });
+        }
+        let value = |s: Symbol| known.iter().find(|(own, _)| *own == s).map(|(_, x)| *x);
+        let jets = self.terms.jets.iter();
+        let targets: Vec<f64> = jets.map(|c| value(c.v_symbol).unwrap_or(0.0)).collect();
+        let (symbols, numbers): (Vec<Symbol>, Vec<f64>) = known.iter().copied().unzip();
+        let variables = with_time(g, &[&symbols[..], open].concat());
+        let gradient = g.jacobian(&phi, open).concat();
+        let groups = [("phi", phi), ("gradient", gradient)];
+        let mut functions = Functions::new(g, self.binding, &variables, &groups)?;
+        let mut evaluate = |x: &[f64]| {
+            functions.evaluate(t, &[&numbers, x]).ok()?;
+            Some((functions.group(0).to_vec(), functions.group(1).to_vec()))
+        };
+        solved(&mut evaluate, &targets, open.len()).ok_or(FlowError::Start { formulation })
     }
 
     /// w and A as functions of t, masses, q, …, q^(m) (and q'' for m = 1).
@@ -262,4 +334,31 @@ pub(super) fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
     let mut variables = vec![g.intern_symbol("t", 0)];
     variables.extend(symbols);
     variables
+}
+
+/// Solves `f(x) = targets` by Newton's method from several starting points; `evaluate` gives f and its gradient by rows.
+fn solved(
+    evaluate: &mut dyn FnMut(&[f64]) -> Option<(Vec<f64>, Vec<f64>)>,
+    targets: &[f64],
+    size: usize,
+) -> Option<Vec<f64>> {
+    let all: Vec<usize> = (0..size).collect();
+    let mut generator = chetaev_mechanics::sample::Generator::new(3);
+    let reach = targets.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+    for attempt in 0..60 {
+        let width = if attempt % 2 == 0 { reach } else { 3.2 };
+        let mut x: Vec<f64> = (0..size).map(|_| generator.between(0.0, width)).collect();
+        for _ in 0..60 {
+            let Some((values, gradient)) = evaluate(&x) else {
+                break;
+            };
+            let f: Vec<f64> = values.iter().zip(targets).map(|(a, b)| a - b).collect();
+            if f.iter().all(|f| f.abs() <= 1e-12 * reach) {
+                return Some(x);
+            }
+            let step = least_squares(&gradient, &f, size, &all);
+            x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
+        }
+    }
+    None
 }

@@ -2,24 +2,27 @@
 
 use crate::derivation::Derivation;
 use crate::free::following;
-use crate::start::{start_state, StartState};
+use crate::start::{own_values, start_state, without_open_controls, StartState};
 use crate::StudyError;
 use chetaev_mechanics::equations::StateVariable;
-use chetaev_mechanics::{Context, System};
+use chetaev_mechanics::{formulation, Context, MotionTerms, System};
 use chetaev_model::Model;
-use chetaev_motion::least_squares;
+use chetaev_motion::{jet_flow, Binding};
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// What functions of a system take beside the state, and the numbers that the model states for it.
 pub(super) struct Numbers<'a> {
     pub(super) system: &'a System,
+    terms: &'a MotionTerms,
     /// The parameters that are arguments.
     pub(super) parameters: Vec<Symbol>,
     /// Those that follow from them.
     following: Vec<(Expr, Expr)>,
     /// Values of parameters, and of all that moves at the start.
     known: BTreeMap<Symbol, f64>,
+    /// The start of the motion, where it is known.
+    start: Option<StartState>,
     /// Why there is no start.
     pub(super) no_start: Option<String>,
 }
@@ -32,9 +35,11 @@ impl<'a> Numbers<'a> {
         let all = system.parameters.iter().filter(|p| is_free(p.expr));
         let mut own = Numbers {
             system,
+            terms: cx.terms,
             parameters: all.filter_map(|p| g.as_symbol(p.expr)).collect(),
             following,
             known: BTreeMap::new(),
+            start: None,
             no_start: None,
         };
         for p in &system.parameters {
@@ -42,9 +47,16 @@ impl<'a> Numbers<'a> {
             own.known.extend(g.as_symbol(p.expr).zip(value));
         }
         match start_state(model, system, (cx.terms, cx.selection)) {
-            Ok(StartState { t, state, beyond }) => {
-                own.known.insert(g.intern_symbol("t", 0), t);
-                own.known.extend(state.into_iter().chain(beyond));
+            Ok(start) => {
+                own.known.insert(g.intern_symbol("t", 0), start.t);
+                own.known
+                    .extend(start.state.iter().chain(&start.beyond).copied());
+                // Data of a form itself, as the multipliers of an extremum; what has no value stays unknown.
+                let stated = own_values(model, system).unwrap_or_default();
+                let stated = stated.into_iter();
+                own.known
+                    .extend(stated.map(|(name, value)| (g.intern_symbol(&name, 0), value)));
+                own.start = Some(start);
             }
             // Without constraints the start is what is stated, whatever the other parameters are.
             Err(StudyError::MissingValues { .. }) if system.constraints.is_empty() => own.stated(),
@@ -112,19 +124,19 @@ impl<'a> Numbers<'a> {
             .collect()
     }
 
-    /// The variables of a form of the equations at the start: by their definitions, else those with the velocities of the start.
+    /// The variables of a form of the equations at the start: by their definitions, else those with which `simulate` starts; none for what the
+    /// model does not determine.
     pub(super) fn variables(&self, one: &Derivation) -> Vec<Option<f64>> {
         let variables = &one.equations.variables;
-        let missing = || vec![None; variables.len()];
         if self.no_start.is_some() {
-            return missing();
+            return vec![None; variables.len()];
         }
         let defined: Vec<Option<f64>> = variables.iter().map(|x| self.variable(x)).collect();
         if defined.iter().all(Option::is_some) {
             return defined;
         }
-        let solved = self.speeds(one);
-        solved.map_or_else(missing, |all| all.into_iter().map(Some).collect())
+        let solved = self.parameters_of_characteristics(one);
+        solved.map_or(defined, |all| all.into_iter().map(Some).collect())
     }
 
     fn variable(&self, own: &StateVariable) -> Option<f64> {
@@ -132,26 +144,28 @@ impl<'a> Numbers<'a> {
             .or_else(|| own.definition.and_then(|e| self.number(e)))
     }
 
-    /// The speeds whose velocities are nearest to those of the start: what no velocity depends on is zero.
-    fn speeds(&self, one: &Derivation) -> Option<Vec<f64>> {
-        let (g, system, equations) = (&self.system.graph, self.system, &one.equations);
-        let symbols: Vec<Symbol> = equations.variables.iter().map(|x| x.symbol).collect();
-        let mut lookup = self.known.clone();
-        lookup.extend(symbols.iter().map(|&s| (s, 0.0)));
-        let value = |es: &[Expr]| {
-            let values = g.evaluate_f64(es, &|s| lookup.get(&s).copied()).ok()?;
-            values.iter().all(|x| x.is_finite()).then_some(values)
+    /// The variables where the model states characteristics with parameters of its own: those of the motion that `simulate` computes.
+    fn parameters_of_characteristics(&self, one: &Derivation) -> Option<Vec<f64>> {
+        let start = self.start.as_ref()?;
+        let system = without_open_controls(self.system, self.terms);
+        let binding = Binding::new(&system).ok()?;
+        let parts = jet_flow::Parts {
+            formulation: formulation(one.card.name)?,
+            system: &system,
+            terms: self.terms,
+            binding: &binding,
         };
-        let slopes = g.jacobian(&equations.velocities, &symbols);
-        if g.any_contains_any(&slopes.concat(), &symbols) {
-            return None;
-        }
-        let rest = value(&equations.velocities)?;
-        let given = system.coordinates.iter().map(|c| self.value(c.v_symbol));
-        let given: Vec<f64> = given.collect::<Option<_>>()?;
-        let right: Vec<f64> = given.iter().zip(rest).map(|(v, rest)| v - rest).collect();
-        let all: Vec<usize> = (0..symbols.len()).collect();
-        let matrix = value(&slopes.concat())?;
-        Some(least_squares(&matrix, &right, symbols.len(), &all))
+        let mut known = [&start.state[..], &start.beyond[..]].concat();
+        let variables = one.equations.variables.iter();
+        let symbols: Vec<Symbol> = variables.map(|x| x.symbol).collect();
+        let stated = symbols
+            .iter()
+            .filter(|s| known.iter().all(|own| own.0 != **s));
+        let stated: Vec<(Symbol, f64)> =
+            stated.filter_map(|&s| Some((s, self.value(s)?))).collect();
+        known.extend(stated);
+        parts
+            .at_start(&one.equations, start.t, &known, &symbols)
+            .ok()
     }
 }

@@ -14,20 +14,21 @@ enum Locked {
     Unknown(File),
 }
 
-/// Locks a folder for this process, until the file is dropped or the process ends, however it ends.
+/// Locks a folder for this process, until the file is dropped or the process ends, however it ends. Beside it what is to be said where the file
+/// system has no locks.
 ///
 /// # Errors
 /// Another process has it, or the file cannot be made.
-pub(crate) fn folder(folder: &Path) -> Result<File, String> {
+pub(super) fn folder(folder: &Path) -> Result<(File, Option<String>), String> {
     let path = folder.join(LOCK);
     match lock(&path) {
-        Ok(Locked::Alone(file)) => Ok(file),
+        Ok(Locked::Alone(file)) => Ok((file, None)),
         Ok(Locked::Unknown(file)) => {
-            crate::terminal::err(&format!(
+            let said = format!(
                 "{} cannot be locked here: see to it that no other sweep runs in the same folder",
                 folder.display()
-            ));
-            Ok(file)
+            );
+            Ok((file, Some(said)))
         }
         Ok(Locked::Taken) => Err(format!(
             "another process computes a sweep in {}: wait until it has ended, or choose another folder with --out",

@@ -10,15 +10,31 @@
 //! sweep.sha256    checksums of both, as `sha256sum` writes and checks them; a sweep is believed to be complete by these only
 //! ```
 
-use crate::{files, lock};
-use chetaev::ensemble::{archive, Columns, Journal, Outcome, Record};
+use crate::files;
+use chetaev_ensemble::pool::{self, Batch};
+use chetaev_ensemble::{archive, Columns, Journal, Outcome, Record};
+use chetaev_study::sweep::Sweep;
 use serde_json::{json, Map, Value};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
+
+mod lock;
+
+/// Why a sweep is not kept in a folder: what lies there already, who computes there, or what cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct NotKept(String);
+
+impl From<String> for NotKept {
+    fn from(said: String) -> NotKept {
+        NotKept(said)
+    }
+}
 
 /// What was written is brought to the disk at least so often; a process that is killed loses nothing in between, only a
 /// machine that fails does.
@@ -29,31 +45,44 @@ const RECORD: &str = "sweep.json";
 const DATA: &str = "sweep.data";
 const JOURNAL: &str = "sweep.journal";
 const SUMS: &str = "sweep.sha256";
-/// The results.
-pub(crate) const ARCHIVE: &str = "sweep.npz";
-/// The reasons.
-pub(crate) const FAILURES: &str = "failures.csv";
+/// The file of the results.
+pub const ARCHIVE: &str = "sweep.npz";
+/// The file of the reasons.
+pub const FAILURES: &str = "failures.csv";
 
 /// The archive is made of stretches of trajectories of which no column has more than so many numbers, and `failures.csv` of
 /// stretches of so many trajectories: no more is in memory.
 const STRETCH: u64 = 1 << 22;
 
 /// A trajectory that ended early or did not begin, and why.
-pub(crate) type Failure = (u64, String);
+pub type Failure = (u64, String);
 
 /// What a folder holds.
-pub(crate) enum Opened {
+#[derive(Debug)]
+pub enum Opened {
     /// The whole sweep; its first failure.
     Complete(Option<Failure>),
     /// Some of its trajectories, or none.
     Begun(Box<Store>),
 }
 
+/// How a computation ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// All trajectories are there.
+    Complete,
+    /// Somebody interrupted.
+    Interrupted,
+    /// A trajectory failed and the sweep was to end at the first.
+    Failed(Failure),
+}
+
 /// How many trajectories ended in which way, by the number of the column `stop`.
-pub(crate) type Stops = BTreeMap<i64, u64>;
+pub type Stops = BTreeMap<i64, u64>;
 
 /// The trajectories of a sweep that have ended.
-pub(crate) struct Store {
+#[derive(Debug)]
+pub struct Store {
     folder: PathBuf,
     columns: Columns,
     count: u64,
@@ -65,12 +94,14 @@ pub(crate) struct Store {
     written: Written,
     failure: Option<Failure>,
     synced: Instant,
+    /// What is to be said of the lock.
+    note: Option<String>,
     /// Released when this ends, or the process does, however it ends.
     _lock: File,
 }
 
 /// Which trajectories are written: one bit for each.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Written {
     bits: Vec<u64>,
     number: u64,
@@ -98,15 +129,30 @@ impl Written {
 }
 
 /// What a sweep is.
-pub(crate) struct Asked<'a> {
+struct Asked<'a> {
     /// What makes it another than others.
-    pub(crate) description: &'a [(&'static str, String)],
+    description: &'a [(&'static str, String)],
     /// Its columns.
-    pub(crate) columns: &'a Columns,
+    columns: &'a Columns,
     /// Number of trajectories.
-    pub(crate) count: u64,
+    count: u64,
     /// What the numbers of the column `stop` mean.
-    pub(crate) stops: &'a [(i64, String)],
+    stops: &'a [(i64, String)],
+}
+
+/// What the numbers of the column `stop` mean.
+pub fn stops_in_words(sweep: &Sweep) -> Vec<(i64, String)> {
+    let mut words = vec![
+        (0, "the end of the time span was reached".to_owned()),
+        (1, "ended early; the reason is in failures.csv".to_owned()),
+        (2, "did not begin; the reason is in failures.csv".to_owned()),
+    ];
+    let events = sweep.events();
+    let events = (10..)
+        .zip(events)
+        .map(|(number, name)| (number, format!("event {name}")));
+    words.extend(events);
+    words
 }
 
 impl Asked<'_> {
@@ -142,7 +188,18 @@ fn at(path: &Path, what: &str) -> impl Fn(std::io::Error) -> String {
 ///
 /// # Errors
 /// Another process that computes in the folder, another sweep in it, or a file that cannot be read or written.
-pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
+pub fn open(folder: &Path, sweep: &Sweep) -> Result<Opened, NotKept> {
+    let (description, stops) = (sweep.description(), stops_in_words(sweep));
+    let asked = Asked {
+        description: &description,
+        columns: sweep.columns(),
+        count: sweep.count(),
+        stops: &stops,
+    };
+    Ok(opened(folder, &asked)?)
+}
+
+fn opened(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
     std::fs::create_dir_all(folder).map_err(at(folder, "made"))?;
     let path = |name: &str| folder.join(name);
     let is_complete = || path(RECORD).exists() && path(ARCHIVE).exists() && !path(JOURNAL).exists();
@@ -152,7 +209,7 @@ pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
         check_sums(folder)?;
         return Ok(Opened::Complete(first_of_file(&path(FAILURES))));
     }
-    let lock = lock::folder(folder)?;
+    let (lock, note) = lock::folder(folder)?;
     check_record(folder, asked)?;
     if is_complete() {
         check_sums(folder)?;
@@ -175,6 +232,7 @@ pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
         written: Written::of(asked.count),
         failure: None,
         synced: Instant::now(),
+        note,
         _lock: lock,
     };
     store.take_over()?;
@@ -267,7 +325,7 @@ fn replace(
     path: &Path,
     write: impl FnOnce(&mut File) -> std::io::Result<()>,
 ) -> Result<(), String> {
-    files::replace(path, write)?;
+    files::replace(path, write).map_err(|problem| problem.to_string())?;
     sync_folder(path.parent()).map_err(at(path, "written"))
 }
 
@@ -359,17 +417,17 @@ impl Store {
     }
 
     /// How many trajectories are written.
-    pub(crate) fn written(&self) -> u64 {
+    pub fn written(&self) -> u64 {
         self.written.number
     }
 
     /// The failure of the lowest number among what is written.
-    pub(crate) fn failure(&self) -> Option<&Failure> {
+    pub fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }
 
     /// The trajectories that are not written, in ascending ranges.
-    pub(crate) fn missing(&self) -> Vec<Range<u64>> {
+    fn missing(&self) -> Vec<Range<u64>> {
         let mut missing: Vec<Range<u64>> = Vec::new();
         for index in (0..self.count).filter(|&index| !self.written.has(index)) {
             match missing.last_mut() {
@@ -381,7 +439,7 @@ impl Store {
     }
 
     /// Writes a batch, each trajectory with its values, then its line.
-    pub(crate) fn append(&mut self, rows: &[(u64, Vec<f64>, Outcome)]) -> Result<(), String> {
+    fn append(&mut self, rows: &[(u64, Vec<f64>, Outcome)]) -> Result<(), String> {
         let bytes = self.columns.encode(rows);
         let record = Record::new(rows.len() as u64, self.known.end, &bytes);
         self.write(record, &bytes)
@@ -409,13 +467,105 @@ impl Store {
         self.journal.sync_data()
     }
 
+    /// Computes what is missing, until all is there, somebody interrupts, or, where that is wanted, a trajectory fails. `tell` is called after each
+    /// batch with how many are written and how many of those that were computed now have failed.
+    ///
+    /// # Errors
+    /// A batch cannot be written.
+    pub fn compute(
+        &mut self,
+        sweep: &Sweep,
+        (threads, ends_at_failure): (usize, bool),
+        interrupt: &AtomicBool,
+        tell: &mut dyn FnMut(u64, usize),
+    ) -> Result<Ended, NotKept> {
+        let (work, missing) = (sweep.work(), self.missing());
+        let mut failures = 0;
+        let mut ended = Ok(Ended::Complete);
+        let sink = |batch: Batch| {
+            let rows = batch.into_iter();
+            let rows: Vec<_> = rows.map(|(i, o)| (i, sweep.values(i), o)).collect();
+            if let Err(problem) = self.append(&rows) {
+                ended = Err(NotKept(problem));
+                return ControlFlow::Break(());
+            }
+            failures += rows.iter().filter(|(.., o)| o.stop.is_failure()).count();
+            tell(self.written(), failures);
+            match self.failure().filter(|_| ends_at_failure) {
+                Some(failure) => {
+                    ended = Ok(Ended::Failed(failure.clone()));
+                    ControlFlow::Break(())
+                }
+                None => ControlFlow::Continue(()),
+            }
+        };
+        pool::run(&*work, (&missing, threads), interrupt, sink);
+        match ended? {
+            Ended::Complete if self.written() < self.count => Ok(Ended::Interrupted),
+            ended => Ok(ended),
+        }
+    }
+
+    /// What is to be said to whoever started this: that nothing keeps others out of the folder.
+    pub fn note(&self) -> Option<&str> {
+        self.note.as_deref()
+    }
+
+    /// All that is written as one batch in the order of the numbers, as [`Columns::encode`] makes it, and of how many trajectories.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn batches(&mut self) -> Result<(usize, Vec<u8>), NotKept> {
+        let read = at(&self.folder, "read");
+        self.joined().map_err(|problem| NotKept(read(problem)))
+    }
+
+    fn joined(&mut self) -> std::io::Result<(usize, Vec<u8>)> {
+        let mut rows: Vec<(u64, usize, usize)> = Vec::new();
+        let mut parts: Vec<(usize, Vec<u8>)> = Vec::new();
+        for record in self.known.records.clone() {
+            let (bytes, count) = (self.batch(&record)?, record.count as usize);
+            let indices = Columns::indices(count, &bytes).into_iter().enumerate();
+            rows.extend(indices.map(|(row, index)| (index, parts.len(), row)));
+            parts.push((count, bytes));
+        }
+        rows.sort_unstable();
+        let mut all: Vec<u8> = Vec::new();
+        all.extend(rows.iter().flat_map(|(index, ..)| index.to_le_bytes()));
+        for (column, own) in self.columns.list.iter().enumerate() {
+            let width = 8 * own.width();
+            for &(_, part, row) in &rows {
+                let (count, bytes) = &parts[part];
+                let first = self.columns.range(column, *count).start + row * width;
+                all.extend_from_slice(&bytes[first..first + width]);
+            }
+        }
+        // Failures stand behind the columns, each with its number.
+        for (count, bytes) in &parts {
+            let end = 8 * (1 + self.columns.width()) * count;
+            all.extend_from_slice(bytes.get(end..).unwrap_or_default());
+        }
+        Ok((rows.len(), all))
+    }
+
     /// Ends a sweep that is not complete.
-    pub(crate) fn leave(mut self) -> Result<(), String> {
-        self.sync().map_err(at(&self.folder, "written to"))
+    ///
+    /// # Errors
+    /// What was computed does not come to the disk.
+    pub fn leave(mut self) -> Result<(), NotKept> {
+        let ended = self.sync().map_err(at(&self.folder, "written to"));
+        Ok(ended?)
     }
 
     /// Makes the archive of all trajectories, and deletes the batches.
-    pub(crate) fn finish(mut self) -> Result<Stops, String> {
+    ///
+    /// # Errors
+    /// Trajectories are missing or damaged, or a file cannot be written.
+    pub fn finish(self) -> Result<Stops, NotKept> {
+        Ok(self.finished()?)
+    }
+
+    fn finished(mut self) -> Result<Stops, String> {
         let folder = self.folder.clone();
         self.sync().map_err(at(&folder, "written to"))?;
         if self.written.number != self.count {
