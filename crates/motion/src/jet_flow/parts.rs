@@ -336,9 +336,12 @@ pub(super) fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
     variables
 }
 
-/// Solves `f(x) = targets` by Newton's method from several starting points; `evaluate` gives f and its gradient by rows.
+/// f and its gradient by rows, where they have numbers.
+type Values = Option<(Vec<f64>, Vec<f64>)>;
+
+/// Solves `f(x) = targets` by Newton's method from several starting points; `evaluate` gives f with its gradient.
 fn solved(
-    evaluate: &mut dyn FnMut(&[f64]) -> Option<(Vec<f64>, Vec<f64>)>,
+    evaluate: &mut dyn FnMut(&[f64]) -> Values,
     targets: &[f64],
     size: usize,
 ) -> Option<Vec<f64>> {
