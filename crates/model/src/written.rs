@@ -160,6 +160,6 @@ mod tests {
             written(text, &[("wheel_mass", "3")]).as_deref(),
             Some(expected)
         );
-        assert_eq!(written("parameters = 3", &[("m", "1")]), None);
+        assert_eq!(written("parameters = 3\nsizes = 3\n", &[("m", "1")]), None);
     }
 }

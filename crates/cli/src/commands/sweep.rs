@@ -193,9 +193,10 @@ fn compute(
     line.show(&format!("computing {count} trajectories"), None);
     store.compute(sweep, with, &INTERRUPTED, &mut |written, failures| {
         let done = (written - taken, taken, count);
-        let told = match line.is_painted() {
-            true => told(done, failures, line.seconds() - began),
-            false => format!("computing {count} trajectories"),
+        let told = if line.is_painted() {
+            told(done, failures, line.seconds() - began)
+        } else {
+            format!("computing {count} trajectories")
         };
         line.show(&told, Some(written as f64 / count as f64));
     })

@@ -336,11 +336,15 @@ pub(super) fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
     variables
 }
 
-/// Functions with their gradients by rows, at a point.
-type WithGradients<'f> = dyn FnMut(&[f64]) -> Option<(Vec<f64>, Vec<f64>)> + 'f;
+/// f and its gradient by rows, where they have numbers.
+type Values = Option<(Vec<f64>, Vec<f64>)>;
 
-/// Solves `f(x) = targets` by Newton's method from several starting points; `evaluate` gives f and its gradient by rows.
-fn solved(evaluate: &mut WithGradients<'_>, targets: &[f64], size: usize) -> Option<Vec<f64>> {
+/// Solves `f(x) = targets` by Newton's method from several starting points; `evaluate` gives f with its gradient.
+fn solved(
+    evaluate: &mut dyn FnMut(&[f64]) -> Values,
+    targets: &[f64],
+    size: usize,
+) -> Option<Vec<f64>> {
     let all: Vec<usize> = (0..size).collect();
     let mut generator = chetaev_mechanics::sample::Generator::new(3);
     let reach = targets.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
