@@ -25,15 +25,54 @@ use std::time::{Duration, Instant};
 
 mod lock;
 
-/// Why a sweep is not kept in a folder: what lies there already, who computes there, or what cannot be read or written.
+/// Why a sweep is not kept in a folder.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct NotKept(String);
-
-impl From<String> for NotKept {
-    fn from(said: String) -> NotKept {
-        NotKept(said)
-    }
+#[non_exhaustive]
+pub enum NotKept {
+    /// A file of it.
+    #[error("{} cannot be {what}: {problem}", path.display())]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// What was tried.
+        what: &'static str,
+        /// What the system says.
+        problem: std::io::Error,
+    },
+    /// A file that was to be written whole.
+    #[error(transparent)]
+    NotWritten(#[from] files::Unwritten),
+    /// Another process has the folder.
+    #[error("another process computes a sweep in {}: wait until it has ended, or choose another folder with --out", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Trajectories without a record of which sweep they are.
+    #[error("{} holds {name} but no {RECORD} that says of which sweep: choose another folder with --out, or delete it", folder.display())]
+    NoRecord {
+        /// The folder.
+        folder: PathBuf,
+        /// What it holds.
+        name: &'static str,
+    },
+    /// Another sweep.
+    #[error("{} holds another sweep: {what}; choose another folder with --out, or delete it", folder.display())]
+    Other {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        what: String,
+    },
+    /// What was changed since it was written.
+    #[error("{0} holds {ARCHIVE} and {FAILURES} that are not what a sweep wrote there: their checksums are not those of {SUMS}; choose another folder with --out, or delete {0}", folder.display())]
+    Changed {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Less than all.
+    #[error("some trajectories are missing")]
+    Missing,
 }
 
 /// What was written is brought to the disk at least so often; a process that is killed loses nothing in between, only a
@@ -179,9 +218,13 @@ impl Asked<'_> {
     }
 }
 
-fn at(path: &Path, what: &str) -> impl Fn(std::io::Error) -> String {
-    let said = format!("{} cannot be {what}", path.display());
-    move |problem| format!("{said}: {problem}")
+fn at(path: &Path, what: &'static str) -> impl Fn(std::io::Error) -> NotKept {
+    let path = path.to_owned();
+    move |problem| NotKept::File {
+        path: path.clone(),
+        what,
+        problem,
+    }
 }
 
 /// Opens the folder of a sweep, a new one or one in which the same sweep was begun.
@@ -196,10 +239,10 @@ pub fn open(folder: &Path, sweep: &Sweep) -> Result<Opened, NotKept> {
         count: sweep.count(),
         stops: &stops,
     };
-    Ok(opened(folder, &asked)?)
+    opened(folder, &asked)
 }
 
-fn opened(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
+fn opened(folder: &Path, asked: &Asked<'_>) -> Result<Opened, NotKept> {
     std::fs::create_dir_all(folder).map_err(at(folder, "made"))?;
     let path = |name: &str| folder.join(name);
     let is_complete = || path(RECORD).exists() && path(ARCHIVE).exists() && !path(JOURNAL).exists();
@@ -240,17 +283,17 @@ fn opened(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
 }
 
 /// The record in the folder is of this sweep; where there is none, and nothing else, it is written.
-fn check_record(folder: &Path, asked: &Asked<'_>) -> Result<(), String> {
+fn check_record(folder: &Path, asked: &Asked<'_>) -> Result<(), NotKept> {
     let path = |name: &str| folder.join(name);
     match std::fs::read_to_string(path(RECORD)) {
         Ok(text) => compare(folder, &text, asked),
         Err(problem) if problem.kind() == std::io::ErrorKind::NotFound => {
             let mut names = [ARCHIVE, DATA, JOURNAL].into_iter();
             if let Some(name) = names.find(|name| path(name).exists()) {
-                return Err(format!(
-                    "{} holds {name} but no {RECORD} that says of which sweep: choose another folder with --out, or delete it",
-                    folder.display()
-                ));
+                return Err(NotKept::NoRecord {
+                    folder: folder.to_owned(),
+                    name,
+                });
             }
             replace(&path(RECORD), |file| {
                 file.write_all(asked.record().as_bytes())
@@ -261,25 +304,25 @@ fn check_record(folder: &Path, asked: &Asked<'_>) -> Result<(), String> {
 }
 
 /// The files that a complete sweep consists of, as `sha256sum` lists them.
-fn sums(folder: &Path) -> Result<String, String> {
+fn sums(folder: &Path) -> Result<String, NotKept> {
     let line = |name: &str| {
-        let sum = files::checksum_of(&folder.join(name));
-        let sum = sum.ok_or_else(|| format!("{} cannot be read", folder.join(name).display()))?;
+        let path = folder.join(name);
+        let unread = || at(&path, "read")(std::io::ErrorKind::InvalidData.into());
+        let sum = files::checksum_of(&path).ok_or_else(unread)?;
         Ok(format!("{sum}  {name}\n"))
     };
     [ARCHIVE, FAILURES].into_iter().map(line).collect()
 }
 
 /// What lies in the folder is what a sweep wrote.
-fn check_sums(folder: &Path) -> Result<(), String> {
+fn check_sums(folder: &Path) -> Result<(), NotKept> {
     let stated = std::fs::read_to_string(folder.join(SUMS)).unwrap_or_default();
     if sums(folder)? == stated {
         Ok(())
     } else {
-        Err(format!(
-            "{0} holds {ARCHIVE} and {FAILURES} that are not what a sweep wrote there: their checksums are not those of {SUMS}; choose another folder with --out, or delete {0}",
-            folder.display()
-        ))
+        Err(NotKept::Changed {
+            folder: folder.to_owned(),
+        })
     }
 }
 
@@ -293,7 +336,7 @@ fn first_of_file(path: &Path) -> Option<Failure> {
 }
 
 /// The record of the folder and what is asked for are of one sweep.
-fn compare(folder: &Path, text: &str, asked: &Asked<'_>) -> Result<(), String> {
+fn compare(folder: &Path, text: &str, asked: &Asked<'_>) -> Result<(), NotKept> {
     if text == asked.record() {
         return Ok(());
     }
@@ -314,18 +357,18 @@ fn compare(folder: &Path, text: &str, asked: &Asked<'_>) -> Result<(), String> {
         true => "its record is not that of this sweep".to_owned(),
         false => format!("what differs: {}", differences.join("; ")),
     };
-    Err(format!(
-        "{} holds another sweep: {what}; choose another folder with --out, or delete it",
-        folder.display()
-    ))
+    Err(NotKept::Other {
+        folder: folder.to_owned(),
+        what,
+    })
 }
 
 /// Writes a file completely or not at all, and brings it to the disk.
 fn replace(
     path: &Path,
     write: impl FnOnce(&mut File) -> std::io::Result<()>,
-) -> Result<(), String> {
-    files::replace(path, write).map_err(|problem| problem.to_string())?;
+) -> Result<(), NotKept> {
+    files::replace(path, write)?;
     sync_folder(path.parent()).map_err(at(path, "written"))
 }
 
@@ -340,7 +383,7 @@ fn sync_folder(folder: Option<&Path>) -> std::io::Result<()> {
 
 impl Store {
     /// Takes what was written before, but for batches whose bytes are not those that were written.
-    fn take_over(&mut self) -> Result<(), String> {
+    fn take_over(&mut self) -> Result<(), NotKept> {
         let mut text = Vec::new();
         let read = self.journal.read_to_end(&mut text);
         read.map_err(at(&self.folder.join(JOURNAL), "read"))?;
@@ -439,7 +482,7 @@ impl Store {
     }
 
     /// Writes a batch, each trajectory with its values, then its line.
-    fn append(&mut self, rows: &[(u64, Vec<f64>, Outcome)]) -> Result<(), String> {
+    fn append(&mut self, rows: &[(u64, Vec<f64>, Outcome)]) -> Result<(), NotKept> {
         let bytes = self.columns.encode(rows);
         let record = Record::new(rows.len() as u64, self.known.end, &bytes);
         self.write(record, &bytes)
@@ -486,7 +529,7 @@ impl Store {
             let rows = batch.into_iter();
             let rows: Vec<_> = rows.map(|(i, o)| (i, sweep.values(i), o)).collect();
             if let Err(problem) = self.append(&rows) {
-                ended = Err(NotKept(problem));
+                ended = Err(problem);
                 return ControlFlow::Break(());
             }
             failures += rows.iter().filter(|(.., o)| o.stop.is_failure()).count();
@@ -517,7 +560,7 @@ impl Store {
     /// It cannot be read.
     pub fn batches(&mut self) -> Result<(usize, Vec<u8>), NotKept> {
         let read = at(&self.folder, "read");
-        self.joined().map_err(|problem| NotKept(read(problem)))
+        self.joined().map_err(read)
     }
 
     fn joined(&mut self) -> std::io::Result<(usize, Vec<u8>)> {
@@ -553,8 +596,7 @@ impl Store {
     /// # Errors
     /// What was computed does not come to the disk.
     pub fn leave(mut self) -> Result<(), NotKept> {
-        let ended = self.sync().map_err(at(&self.folder, "written to"));
-        Ok(ended?)
+        self.sync().map_err(at(&self.folder, "written to"))
     }
 
     /// Makes the archive of all trajectories, and deletes the batches.
@@ -562,14 +604,14 @@ impl Store {
     /// # Errors
     /// Trajectories are missing or damaged, or a file cannot be written.
     pub fn finish(self) -> Result<Stops, NotKept> {
-        Ok(self.finished()?)
+        self.finished()
     }
 
-    fn finished(mut self) -> Result<Stops, String> {
+    fn finished(mut self) -> Result<Stops, NotKept> {
         let folder = self.folder.clone();
         self.sync().map_err(at(&folder, "written to"))?;
         if self.written.number != self.count {
-            return Err("some trajectories are missing".to_owned());
+            return Err(NotKept::Missing);
         }
         let mut stops = Stops::new();
         replace(&folder.join(FAILURES), |file| self.write_failures(file))?;

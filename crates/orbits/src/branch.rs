@@ -4,6 +4,7 @@ use crate::error::OrbitError;
 use crate::hopf::WithoutLyapunov;
 use crate::multipliers::Spectrum;
 use crate::subspace::nullity;
+use crate::units::Units;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// `F` with its derivatives at (x, p).
@@ -154,6 +155,38 @@ pub struct Branch {
     pub family: usize,
     /// Why the curve ends, at its first and at its last point.
     pub ends: [End; 2],
+}
+
+impl Branch {
+    /// The curve as it is, where it was found in these units; the unknowns of an orbit have its period last.
+    pub fn restored(self, units: &Units, is_orbit: bool) -> Branch {
+        let point = |own: Point| {
+            let scales = units.scale.iter().copied().chain([units.rate.recip()]);
+            let unknowns = own.unknowns.iter().zip(scales).map(|(x, s)| x * s);
+            let mut spectrum = own.spectrum;
+            if !is_orbit {
+                spectrum.values.iter_mut().for_each(|l| *l *= units.rate);
+                spectrum.errors.iter_mut().for_each(|e| *e *= units.rate);
+            }
+            Point {
+                unknowns: unknowns.collect(),
+                spectrum,
+                ..own
+            }
+        };
+        let special = self.special.into_iter().map(|mut own| {
+            if let Kind::Hopf { frequency, .. } = &mut own.kind {
+                *frequency *= units.rate;
+            }
+            own.point = point(own.point);
+            own
+        });
+        Branch {
+            special: special.collect(),
+            points: self.points.into_iter().map(point).collect(),
+            ..self
+        }
+    }
 }
 
 /// Why a curve ends.

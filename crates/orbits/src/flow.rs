@@ -1,11 +1,12 @@
 //! The motion as a first-order system `z' = f(t, z, p)`.
 
 use crate::error::OrbitError;
-use crate::units::Units;
+use crate::units::{power_of_two, Units};
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::{outside_angles, Turns};
 use chetaev_motion::Binding;
+use chetaev_stability::eigenvalues::balanced;
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use chetaev_stability::singular::least_part;
@@ -271,6 +272,80 @@ impl Flow {
             .filter(|(name, text)| *name != text)
             .map(|(name, text)| format!("{name} = {text}"))
             .collect()
+    }
+
+    /// Units in which variables and rates are of the size of one near a state. Angles stay as they are, and so does the time where it is
+    /// explicit.
+    pub fn units_near(&self, state: &[f64]) -> Units {
+        let n = self.n();
+        let parameters: Vec<f64> = self.parameters.iter().map(|own| own.1).collect();
+        let Some(slopes) = self.slopes(state, &parameters) else {
+            return Units::ones(n);
+        };
+        if n == 0 || !slopes.iter().all(|x| x.is_finite()) {
+            return Units::ones(n);
+        }
+        let own = balanced(&slopes);
+        let turning = (0..n).find(|&i| self.is_turning[i]);
+        let size = match turning {
+            Some(i) => own.scale[i].recip(),
+            None => {
+                let sizes = state.iter().zip(&own.scale);
+                sizes.map(|(x, d)| x.abs() / d).fold(0.0, f64::max)
+            }
+        };
+        let size = power_of_two(size);
+        let scale = |i: usize| {
+            if self.is_turning[i] {
+                1.0
+            } else {
+                power_of_two(size * own.scale[i])
+            }
+        };
+        let largest = own.matrix.amax() * own.unit;
+        Units {
+            scale: (0..n).map(scale).collect(),
+            rate: if self.is_autonomous() {
+                power_of_two(largest)
+            } else {
+                1.0
+            },
+        }
+    }
+
+    /// The same in other units.
+    pub fn in_units(&self, units: &Units) -> Flow {
+        let g = &self.graph;
+        let number = |x: f64| g.number(Rational::try_from(x).unwrap_or(Rational::ONE));
+        let variables = self.variables.iter().zip(&units.scale);
+        let variables = variables.map(|(&s, &scale)| (g.symbol_expr(s), scale));
+        let time = (g.symbol_expr(self.time()), units.rate.recip());
+        let put: Vec<(Expr, Expr)> = variables
+            .chain([time])
+            .filter(|own| own.1 != 1.0)
+            .map(|(e, scale)| (e, g.mul(&[number(scale), e])))
+            .collect();
+        let in_units = |es: &[Expr]| g.substitute_all(es, &put);
+        let over = |(e, scale): (Expr, f64)| g.mul(&[number(scale.recip()), e]);
+        let rates = in_units(&self.rates).into_iter().zip(&units.scale);
+        let definitions = self.definitions.iter().copied().zip(&units.scale);
+        let rows = |rows: &[Vec<Expr>]| rows.iter().map(|row| in_units(row)).collect();
+        let conserved = self.conserved.iter();
+        let conserved = conserved.map(|(name, e)| (name.clone(), in_units(&[*e])[0]));
+        Flow {
+            rates: rates.map(|(e, s)| over((e, s * units.rate))).collect(),
+            definitions: definitions.map(|(e, &s)| over((e, s))).collect(),
+            velocities: in_units(&self.velocities),
+            finite: in_units(&self.finite),
+            conserved: conserved.collect(),
+            divisors: Divisors {
+                mass: rows(&self.divisors.mass),
+                gradients: rows(&self.divisors.gradients),
+                slopes: rows(&self.divisors.slopes),
+            },
+            units: units.clone(),
+            ..self.clone()
+        }
     }
 
     /// The symbol of the time.

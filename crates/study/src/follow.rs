@@ -25,7 +25,6 @@ use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{arrival, period_guess, Shooting};
 use chetaev_orbits::solution::solution;
-use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
 use chetaev_stability::guess::near;
 use chetaev_stability::problem::LinearizationError;
@@ -187,7 +186,7 @@ impl Begun<'_> {
         let period = period.map(|e| system.with_definitions(e));
         let start = flow.state(&self.point)?;
         let span = (range, pace(wanted)?);
-        let units = Units::of(flow, &start);
+        let units = flow.units_near(&start);
         let (own, start) = (flow.in_units(&units), units.packed(&start));
         let found = if wanted.orbit {
             orbits(&own, &start, (parameter, period), (model, system), span)
@@ -198,7 +197,7 @@ impl Begun<'_> {
             FollowError::Orbit(problem) => units.restored_error(problem).into(),
             other => other,
         })?;
-        let branch = units.restored(branch, wanted.orbit);
+        let branch = branch.restored(&units, wanted.orbit);
         let symbols = system.coordinates.iter();
         let ignorable = symbols.filter(|c| !flow.variables.contains(&c.q_symbol));
         Ok(Followed {

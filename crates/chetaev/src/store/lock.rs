@@ -1,5 +1,6 @@
 //! One process in a folder at a time.
 
+use super::NotKept;
 use std::fs::{File, OpenOptions};
 use std::path::Path;
 
@@ -19,7 +20,7 @@ enum Locked {
 ///
 /// # Errors
 /// Another process has it, or the file cannot be made.
-pub(super) fn folder(folder: &Path) -> Result<(File, Option<String>), String> {
+pub(super) fn folder(folder: &Path) -> Result<(File, Option<String>), NotKept> {
     let path = folder.join(LOCK);
     match lock(&path) {
         Ok(Locked::Alone(file)) => Ok((file, None)),
@@ -30,11 +31,14 @@ pub(super) fn folder(folder: &Path) -> Result<(File, Option<String>), String> {
             );
             Ok((file, Some(said)))
         }
-        Ok(Locked::Taken) => Err(format!(
-            "another process computes a sweep in {}: wait until it has ended, or choose another folder with --out",
-            folder.display()
-        )),
-        Err(problem) => Err(format!("{} cannot be opened: {problem}", path.display())),
+        Ok(Locked::Taken) => Err(NotKept::Taken {
+            folder: folder.to_owned(),
+        }),
+        Err(problem) => Err(NotKept::File {
+            path,
+            what: "opened",
+            problem,
+        }),
     }
 }
 

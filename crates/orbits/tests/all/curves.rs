@@ -508,7 +508,7 @@ fn two_folds_within_one_step() {
 
 /// The flow of a model in its own units near a state, with the state in them.
 fn in_units(flow: &Flow, state: &[f64]) -> (Flow, Vec<f64>, Units) {
-    let units = Units::of(flow, state);
+    let units = flow.units_near(state);
     (flow.in_units(&units), units.packed(state), units)
 }
 
@@ -563,7 +563,7 @@ fn a_fold_at_all_lengths() {
         );
         let (own, state, units) = in_units(&flow, &[l, 0.0]);
         let found = curve(&own, "p", (&state, 1.0), (-1.0, 2.0), Pace::default());
-        let found = units.restored(found, false);
+        let found = found.restored(&units, false);
         assert_eq!(found.special.len(), 1, "{l}: {:?}", found.special);
         assert_eq!(found.special[0].kind, Kind::Fold);
         assert!(found.special[0].point.parameter.abs() < 1e-9);

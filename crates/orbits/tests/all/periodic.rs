@@ -14,7 +14,6 @@ use chetaev_orbits::continuation::follow;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::periodic::{period_guess, Shooting};
 use chetaev_orbits::solution::solution;
-use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
 use nalgebra::DMatrix;
 
@@ -223,7 +222,7 @@ fn one_orbit_at_all_rates_and_lengths() {
             &[("x", 2.0 * l), ("x'", 0.0)],
         );
         let start = [2.0 * l, 0.0];
-        let units = Units::of(&flow, &start);
+        let units = flow.units_near(&start);
         let (flow, start) = (flow.in_units(&units), units.packed(&start));
         let mut orbits = Shooting::new(&flow, None, None).unwrap();
         let period = period_guess(&flow, &start, 20.0 / k * units.rate).unwrap();

@@ -4,7 +4,6 @@ use super::Stability;
 use chetaev_mechanics::Prepared;
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::hopf::{first_lyapunov, FirstLyapunov, WithoutLyapunov};
-use chetaev_orbits::units::Units;
 use chetaev_orbits::Flow;
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::question::values_at;
@@ -44,7 +43,7 @@ impl Stability {
             flow.parameters[place].1 = middle.to_f64().value();
         }
         let state = flow.state(&point).ok()?;
-        let units = Units::of(&flow, &state);
+        let units = flow.units_near(&state);
         let (flow, state) = (flow.in_units(&units), units.packed(&state));
         let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
         let slopes = flow.slopes(&state, &parameters)?;
