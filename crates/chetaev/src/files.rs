@@ -21,10 +21,10 @@ pub fn write(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
     replace(path, |file| std::io::Write::write_all(file, content))
 }
 
-/// [`write`] for what is written piece by piece.
+/// [`write()`] for what is written piece by piece.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn replace(
     path: &Path,
     write: impl FnOnce(&mut std::fs::File) -> std::io::Result<()>,
