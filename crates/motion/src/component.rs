@@ -8,15 +8,13 @@
 
 use crate::chart::{self, Floor};
 use crate::factors::{on_component, Factor};
-use crate::follow::magnitude;
+use crate::follow;
 use crate::initial::{consistent_state, ConsistentState, InitialData};
 use crate::numeric::{Binding, NumericSystem};
 use crate::run::{Run, Subject};
 use chetaev_mechanics::{MotionTerms, Selection, System};
 use chetaev_symbolic::{Expr, Symbol};
 
-/// A factor below this part of its terms vanishes at a start.
-const VANISHES: f64 = 1e-8;
 /// Rounding of a state, as a part of its natural size.
 const ROUNDED: f64 = 1e-13;
 /// A system on the component of its constraints on which a motion starts.
@@ -150,6 +148,5 @@ pub(crate) fn vanishes(subject: &Subject<'_>, e: Expr) -> Option<bool> {
         let mut all = known.iter().chain(parameters);
         all.find(|own| own.0 == s).map(|own| own.1)
     };
-    let both = g.evaluate_f64(&[e, magnitude(g, e)], &value).ok()?;
-    Some(both[0].abs() <= VANISHES * both[1])
+    follow::vanishes(g, e, &value)
 }

@@ -193,6 +193,15 @@ pub(crate) fn followed_values(
     [values, sizes].concat()
 }
 
+/// A function below this part of its terms vanishes at a start.
+const VANISHES: f64 = 1e-8;
+
+/// Whether a function vanishes beside its terms, at values of its symbols; `None` where it has no value.
+pub fn vanishes(g: &Graph, e: Expr, value: &dyn Fn(Symbol) -> Option<f64>) -> Option<bool> {
+    let both = g.evaluate_f64(&[e, magnitude(g, e)], &value).ok()?;
+    Some(both[0].abs() <= VANISHES * both[1])
+}
+
 /// The expression with every term of every sum replaced by its absolute value: the size by which a difference of its values
 /// is judged, which does not vanish where terms cancel. To the size of a function belongs what the size of its argument
 /// changes in it: log(x/y) is judged by 1 where x = y.

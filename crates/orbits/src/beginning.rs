@@ -7,7 +7,7 @@
 
 use crate::error::OrbitError;
 use crate::flow::{plain, Flow};
-use crate::subspace::Balanced;
+use crate::subspace::Equilibrated;
 use crate::variational::{derivatives, Extended, Symbols, Variational};
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -225,7 +225,7 @@ impl Start<'_> {
         let root = |i: usize| metric[(i, i)].sqrt();
         let across = DMatrix::from_fn(n, across.ncols(), |i, k| across[(i, k)] / root(i));
         let force = DVector::from_fn(n, |i, _| force[i] / root(i));
-        let balanced = Balanced::new(&across).ok_or(OrbitError::NoEigenvalues)?;
+        let balanced = Equilibrated::new(&across).ok_or(OrbitError::NoEigenvalues)?;
         let found = balanced.solve(&force, UNDETERMINED);
         let rest = across * &found - force;
         let size = (0..n).map(|i| root(i) * here[i].abs().max(aims[i].abs()));
@@ -251,13 +251,13 @@ impl Start<'_> {
         block: &Block,
         unknowns: &[Symbol],
         (equations, numbers): (&[Expr], &Numbers),
-    ) -> Result<Balanced, OrbitError> {
+    ) -> Result<Equilibrated, OrbitError> {
         let g = &self.system.graph;
         let all = [unknowns, &block.multipliers].concat();
         let values = numbers.values(&g.jacobian(equations, &all).concat())?;
         let matrix = DMatrix::from_row_slice(equations.len(), all.len(), &values);
         if block.multipliers.is_empty() {
-            return Balanced::new(&matrix).ok_or(OrbitError::NoEigenvalues);
+            return Equilibrated::new(&matrix).ok_or(OrbitError::NoEigenvalues);
         }
         let n = unknowns.len();
         let masses: Vec<Expr> = (0..n).map(|i| block.metric[i][i]).collect();
@@ -268,7 +268,7 @@ impl Start<'_> {
             let largest = along.fold(0.0, f64::max);
             scales.push(if largest > 0.0 { largest.recip() } else { 1.0 });
         }
-        Balanced::scaled(&matrix, scales.clone(), scales).ok_or(OrbitError::NoEigenvalues)
+        Equilibrated::scaled(&matrix, scales.clone(), scales).ok_or(OrbitError::NoEigenvalues)
     }
 
     /// Sets the derivatives of the unknowns of a block; those of its positions come before those of its velocities.

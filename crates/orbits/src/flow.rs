@@ -1,12 +1,12 @@
 //! The motion as a first-order system `z' = f(t, z, p)`.
 
 use crate::error::OrbitError;
-use crate::units::{power_of_two, Units};
+use crate::units::Units;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, Selection, System};
 use chetaev_motion::functions::Functions;
 use chetaev_motion::turns::{outside_angles, Turns};
 use chetaev_motion::Binding;
-use chetaev_stability::eigenvalues::balanced;
+use chetaev_stability::eigenvalues::{balanced, power_of_two};
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use chetaev_stability::singular::least_part;

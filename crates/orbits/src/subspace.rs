@@ -76,7 +76,7 @@ pub(crate) fn least_squares(m: &DMatrix<f64>, b: &DVector<f64>, part: f64) -> Op
 }
 
 /// A matrix with scaled rows and columns, so that ranks do not depend on units.
-pub(crate) struct Balanced {
+pub(crate) struct Equilibrated {
     matrix: DMatrix<f64>,
     rows: Vec<f64>,
     columns: Vec<f64>,
@@ -86,9 +86,9 @@ pub(crate) struct Balanced {
 /// Each round halves the exponents of the scales that are left.
 const ROUNDS: usize = 12;
 
-impl Balanced {
+impl Equilibrated {
     /// With scales for which the largest entries of all rows and columns are about one (Ruiz 2001); `None` where an entry is no number.
-    pub(crate) fn new(m: &DMatrix<f64>) -> Option<Balanced> {
+    pub(crate) fn new(m: &DMatrix<f64>) -> Option<Equilibrated> {
         let mut matrix = m.clone();
         let (mut rows, mut columns) = (vec![1.0; m.nrows()], vec![1.0; m.ncols()]);
         let scale = |largest: f64| {
@@ -110,11 +110,15 @@ impl Balanced {
                 .zip(&by_column)
                 .for_each(|(x, y)| *x *= y);
         }
-        Balanced::scaled(m, rows, columns)
+        Equilibrated::scaled(m, rows, columns)
     }
 
     /// With these scales of rows and columns.
-    pub(crate) fn scaled(m: &DMatrix<f64>, rows: Vec<f64>, columns: Vec<f64>) -> Option<Balanced> {
+    pub(crate) fn scaled(
+        m: &DMatrix<f64>,
+        rows: Vec<f64>,
+        columns: Vec<f64>,
+    ) -> Option<Equilibrated> {
         let entry = |i: usize, k: usize| m[(i, k)] * rows[i] * columns[k];
         let matrix = DMatrix::from_fn(m.nrows(), m.ncols(), entry);
         // Where there is no unknown there is nothing to decompose.
@@ -127,7 +131,7 @@ impl Balanced {
         } else {
             decomposed(&matrix)?
         };
-        Some(Balanced {
+        Some(Equilibrated {
             matrix,
             rows,
             columns,

@@ -44,13 +44,3 @@ impl Units {
         }
     }
 }
-
-/// The power of two at or below a positive number; 1 for what is none.
-pub(crate) fn power_of_two(size: f64) -> f64 {
-    let found = size.log2().floor().exp2();
-    if found.is_normal() {
-        found
-    } else {
-        1.0
-    }
-}

@@ -67,8 +67,8 @@ pub fn balanced(matrix: &DMatrix<f64>) -> Balanced {
     }
 }
 
-/// The power of two at or below a positive number; 1 for zero.
-fn power_of_two(size: f64) -> f64 {
+/// The power of two at or below a positive number; 1 for zero and for what is no number.
+pub fn power_of_two(size: f64) -> f64 {
     let found = size.log2().floor().exp2();
     if found.is_normal() {
         found

@@ -35,7 +35,7 @@ use chetaev_mechanics::{
     FORMULATIONS,
 };
 use chetaev_model::model::Model;
-use chetaev_motion::follow::magnitude;
+use chetaev_motion::follow::vanishes;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, Component, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
@@ -636,20 +636,13 @@ fn hypotheses(strata: &Strata<'_>, known: &Registry, mut requires: Vec<String>) 
     requires
 }
 
-/// A function below this part of its terms vanishes where the motion starts.
-const VANISHES: f64 = 1e-8;
-
 /// Whether functions of the state vanish where the motion starts, beside their terms.
 fn vanish_at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<bool> {
     let g = &system.graph;
     let functions = g.substitute_all(functions, &system.parameter_values());
-    let sizes = functions.iter().map(|&e| magnitude(g, e));
-    let both: Vec<Expr> = sizes.chain(functions.iter().copied()).collect();
     let value = |symbol| of_start(system, symbol, start);
-    let found = g.evaluate_f64(&both, &value).ok()?;
-    let (sizes, values) = found.split_at(functions.len());
-    let mut all = sizes.iter().zip(values);
-    Some(all.all(|(size, x)| x.abs() <= VANISHES * size))
+    let mut all = functions.into_iter().map(|e| vanishes(g, e, &value));
+    all.try_fold(true, |all, own| Some(all & own?))
 }
 
 fn decide(

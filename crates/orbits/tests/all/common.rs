@@ -6,19 +6,22 @@
 )]
 
 use chetaev_mechanics::{Prepared, System};
-use chetaev_model::load;
+use chetaev_model::{load, Model};
 use chetaev_orbits::flow::Coordinates;
 use chetaev_orbits::Flow;
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
 
-/// The flow of a model at a state, and the reading of its expressions.
-pub(crate) fn flow(text: &str, state: &[(&str, f64)]) -> (Flow, impl Fn(&str) -> Expr) {
+fn model(text: &str) -> Model {
     let text = format!("name = \"case\"\n{text}");
     let loaded = load("case.toml", &text, &BTreeMap::new(), &[]);
-    let model = loaded
-        .model
-        .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+    let found = loaded.model;
+    found.unwrap_or_else(|| panic!("{}", loaded.diagnostics))
+}
+
+/// The flow of a model at a state, and the reading of its expressions.
+pub(crate) fn flow(text: &str, state: &[(&str, f64)]) -> (Flow, impl Fn(&str) -> Expr) {
+    let model = model(text);
     let system = System::from_model(&model).unwrap();
     let prepared = Prepared::new(&system).unwrap();
     let symbol = |name: &str| {
@@ -49,11 +52,7 @@ pub(crate) fn is_close(found: f64, expected: f64, tolerance: f64) {
 
 /// The model of a text, as a system.
 pub(crate) fn system(text: &str) -> (System, Prepared) {
-    let text = format!("name = \"case\"\n{text}");
-    let loaded = load("case.toml", &text, &BTreeMap::new(), &[]);
-    let model = loaded
-        .model
-        .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+    let model = model(text);
     let system = System::from_model(&model).unwrap();
     let prepared = Prepared::new(&system).unwrap();
     (system, prepared)

@@ -1,10 +1,12 @@
 //! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
 //! `cargo test -p chetaev-stability --test all MODULE::`.
 
+mod borders;
 mod chains;
 mod common;
 mod descriptor;
 mod reference;
+mod state_space;
 mod steady_set;
 mod theorems;
 mod values;
