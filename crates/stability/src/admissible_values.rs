@@ -1,6 +1,7 @@
 //! Which values of a parameter the model admits: what it assumes, along the motion and with the values of the other parameters, and those for
 //! which the motion and what the model states of forces and constraints are real.
 
+use crate::growth::flattened;
 use crate::isolation::Root;
 use crate::parameter_values::values_but;
 use crate::real_roots::{bound_of, decimal, real_roots, sign_at, sign_over};
@@ -294,12 +295,14 @@ fn corners_along(
 ) -> Vec<Condition> {
     let g = &system.graph;
     let place = place_of(system, motion);
-    let mut stated = vec![system.lagrangian];
-    stated.extend(&system.forces);
+    let put = |e: Expr| closed(g, g.substitute(g.substitute(e, &place), values));
+    let vanishes = |e: Expr| Some(g.is_zero(put(e)));
+    let mut stated = system.forces.clone();
     stated.extend(system.constraints.iter().map(|own| own.stated));
     stated.extend(system.controls.iter().filter_map(|own| own.law));
-    let all = corners(g, &stated).into_iter().map(|(_, inside)| inside);
-    let put = |e: Expr| closed(g, g.substitute(g.substitute(e, &place), values));
+    let mut left = flattened(g, &stated, 1, &vanishes).functions;
+    left.extend(flattened(g, &[system.lagrangian], 2, &vanishes).functions);
+    let all = corners(g, &left).into_iter().map(|(_, inside)| inside);
     all.map(|inside| Condition {
         function: put(inside),
         relation: Relation::NotEqual,

@@ -89,8 +89,12 @@ impl Expansion<'_> {
         let by_unknown = self.by_multipliers(&point, &stated, (&unknown, &multipliers))?;
         let along: Vec<(Expr, Expr)> = unknown.iter().copied().zip(multipliers).collect();
         let stated = g.substitute_all(&stated, &along);
+        let named = outputs.iter().map(|(name, _)| name).zip(&stated);
+        let stated = named.map(|(name, &e)| self.with_slopes(name, e, &[]));
+        let stated: Vec<Expr> = stated.collect::<Result<_, _>>()?;
         let whole: Vec<Expr> = motion.into_iter().chain(conditions).chain(stated).collect();
         let inputs = self.inputs_of(&whole);
+        let whole = self.flat(&whole, 1).functions;
         let coordinates = &self.system.coordinates;
         let variables: Vec<Symbol> = (coordinates.iter().map(|c| c.q_symbol))
             .chain(coordinates.iter().map(|c| c.v_symbol))

@@ -1,12 +1,13 @@
 //! A motion in its system: the smallest closed system of variables, and the values of expressions and of their derivatives at the motion.
 
+use crate::growth::{flattened, Flat};
 use crate::guess::near;
 use crate::problem::LinearizationError;
 use crate::real_roots::sign_of;
-use crate::real_values::{corners, not_real};
+use crate::real_values::not_real;
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::singular::least_part;
-use crate::steady::{at_point, completed, controls, echelon, solution, State, SOMEWHERE};
+use crate::steady::{at_point, closed, completed, controls, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
@@ -162,20 +163,37 @@ impl<'a> Expansion<'a> {
         let mut stated = [self.own.equations.entries(), self.own.rates.clone()].concat();
         stated.extend(self.terms.constraints.iter().copied());
         stated.extend(system.constraints.iter().map(|own| own.stated));
-        stated = g.substitute_all(&stated, &self.controls(&stated));
-        for (corner, inside) in corners(g, &stated) {
-            let value = self.at(&[inside])[0];
-            let is_number = g.symbols_in(&[value]).is_empty();
-            let is_apart = !g.is_zero(value)
-                && (!is_number || sign_of(g, value).is_some_and(|sign| sign != Ordering::Equal));
-            if !is_apart {
-                return Err(LinearizationError::NotSmooth {
-                    motion: self.motion.name.clone(),
-                    corner: g.text(corner),
-                });
-            }
+        let stated = g.substitute_all(&stated, &self.controls(&stated));
+        match self.flat(&stated, 1).corner {
+            None => Ok(()),
+            Some(corner) => Err(LinearizationError::NotSmooth {
+                motion: self.motion.name.clone(),
+                corner: g.text(corner),
+            }),
         }
-        Ok(())
+    }
+
+    /// Functions without what is smaller beside the motion than the terms of their expansion to an order.
+    pub(crate) fn flat(&self, es: &[Expr], order: i64) -> Flat {
+        flattened(self.graph(), es, order, &|e| self.vanishes(e))
+    }
+
+    /// Whether the equations have a corner at the motion, though they have linear ones.
+    pub(crate) fn has_corner(&self) -> bool {
+        let equations = &self.own.equations;
+        let all = [self.own.rates.clone(), equations.entries()].concat();
+        let all = self.graph().substitute_all(&all, &self.controls(&all));
+        self.flat(&all, 1).had_corner
+    }
+
+    /// Whether a function vanishes at the motion; `None` where that is not known. What depends on parameters vanishes where it does for all.
+    pub(crate) fn vanishes(&self, e: Expr) -> Option<bool> {
+        let g = self.graph();
+        let value = closed(g, self.at(&[e])[0]);
+        if g.is_zero(value) || !g.symbols_in(&[value]).is_empty() {
+            return Some(g.is_zero(value));
+        }
+        sign_of(g, value).map(|sign| sign == Ordering::Equal)
     }
 
     fn check_constraints(&self) -> Result<(), LinearizationError> {
@@ -275,6 +293,7 @@ impl<'a> Expansion<'a> {
         let c = &self.own.characteristics;
         let g = self.graph();
         let rates = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
+        let rates = self.flat(&rates, 1).functions;
         let rates = g.substitute_all(&rates, &self.values);
         if c.manifold.implicit.is_empty() {
             return self.at_rows(&g.jacobian(&rates, &self.variables()));

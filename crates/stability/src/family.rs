@@ -102,6 +102,11 @@ impl Expansion<'_> {
             .filter(|row| !is_chosen(row))
             .map(|row| equations[row].0)
             .collect();
+        // The theorem asks for slopes around the motion, not at it alone.
+        let functions: Vec<Expr> = chosen.iter().map(|(e, _)| *e).collect();
+        if self.flat(&functions, 1).had_corner {
+            return 0;
+        }
         let (chosen, others) = self.near(chosen, &others);
         let dimension = variables.len() - pivots.len();
         if dimension == 0 || vanish_on(self.system, &others, &chosen) {

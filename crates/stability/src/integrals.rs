@@ -14,7 +14,8 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
+use chetaev_symbolic::node::{Function, Node};
+use chetaev_symbolic::zero::{decide_zero, known_sign, Options, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use std::cmp::Ordering;
 
@@ -57,6 +58,10 @@ impl Expansion<'_> {
                 continue;
             };
             known.push(own);
+            let flat = self.flat(&[own], 2);
+            if flat.corner.is_some() {
+                continue;
+            }
             let rate = self.rate(own);
             let is_conserved = rate.is_some_and(|rate| self.vanish(&[rate]));
             if is_conserved || rate.is_some_and(|rate| self.is_dissipated(rate)) {
@@ -72,7 +77,8 @@ impl Expansion<'_> {
             }
         }
         let finite = self.finite().into_iter();
-        found.extend(finite.map(|e| self.jet(FINITE.into(), e)));
+        let smooth = finite.filter(|&e| self.flat(&[e], 2).corner.is_none());
+        found.extend(smooth.map(|e| self.jet(FINITE.into(), e)));
         found
     }
 
@@ -135,10 +141,14 @@ impl Expansion<'_> {
         g.substitute_all(&rate, &self.values).pop()
     }
 
-    /// Whether a rate is proved to be `−Pᵀ Q P` with constant Q none of whose principal minors is negative: dissipation by Rayleigh's
-    /// function (Thomson and Tait 1879).
+    /// Whether a rate is proved to be nowhere positive: by the signs of its terms, as `−c |x'| x'²` is, or as `−Pᵀ Q P` with constant Q none of
+    /// whose principal minors is negative, which is dissipation by Rayleigh's function (Thomson and Tait 1879).
     fn is_dissipated(&self, rate: Expr) -> bool {
         let g = self.graph();
+        let rate = closed(g, self.without_signs(rate));
+        if known_sign(g, rate, &assumptions(self.system)).is_nonpositive() {
+            return true;
+        }
         let speeds = &self.own.characteristics.parameters;
         let second = |e: Expr| -> Vec<Expr> {
             let by = self.own.characteristics.by_parameters(self.system, &[e]);
@@ -156,6 +166,27 @@ impl Expansion<'_> {
             );
         }
         is_semidefinite(g, &form) && self.vanish(&[g.add(&terms)])
+    }
+
+    /// A function with f/|f| for the sign of f, so that `sign(f) f` is seen to be |f|.
+    fn without_signs(&self, e: Expr) -> Expr {
+        let g = self.graph();
+        let as_quotient = |e: Expr| match g.node(e) {
+            Node::Apply {
+                function: Function::Sign,
+                arguments,
+            } => {
+                let f = *arguments.first()?;
+                Some((e, g.div(f, g.abs(f))))
+            }
+            _ => None,
+        };
+        let signs: Vec<(Expr, Expr)> = g
+            .reachable(&[e])
+            .into_iter()
+            .filter_map(as_quotient)
+            .collect();
+        g.substitute(e, &signs)
     }
 
     /// Whether functions of the variables are proved to vanish: wherever the finite constraints have what values they have, since the equations of
@@ -197,7 +228,8 @@ impl Expansion<'_> {
 
     /// First and second derivatives at the motion.
     fn jet(&self, name: String, e: Expr) -> Jet {
-        let first = self.derivatives(e);
+        let flat = self.flat(&[e], 2).functions;
+        let first: Vec<Expr> = flat.iter().flat_map(|&e| self.derivatives(e)).collect();
         Jet {
             name,
             gradient: self.at(&first),

@@ -4,7 +4,7 @@
 //! uniformly. What is asked, in this order, and where it is decided:
 //!
 //! 1. *Which motion?* [`steady`]: positions and velocities, completed by the constraints; [`expansion`] checks them, exactly, and expands
-//!    functions about them; `real_values` says where they are real numbers; [`problem`] says why that cannot be.
+//!    functions about them, by their `growth` beside it where they have corners; `real_values` says where they are real numbers; [`problem`] says why that cannot be.
 //! 2. *On which variables do the equations depend?* [`reduction`]: the smallest closed system of coordinates and quasi-velocities.
 //! 3. *What are the linear equations?* [`linearization`]: `E δz' = F δz`, exact in the parameters, on the tangent space of the finite
 //!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do, [`descriptor`] in all variables.
@@ -36,6 +36,7 @@ pub mod enclosure;
 mod evidence;
 pub mod expansion;
 mod family;
+mod growth;
 pub mod guess;
 pub mod hurwitz;
 pub mod integrals;

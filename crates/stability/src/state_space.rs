@@ -1,9 +1,9 @@
 //! The linear equations as control theory writes them: `z' = A z + B u`, `y = C z + D u`, and their transfer functions.
 
 use crate::expansion::Expansion;
+use crate::growth::flattened;
 use crate::linearization::Linearization;
 use crate::multiplicity::product;
-use crate::real_values::corners;
 use crate::steady::{closed, echelon};
 use chetaev_mechanics::redundancy::Reactions;
 use chetaev_symbolic::linear::SolveError;
@@ -224,6 +224,7 @@ impl Expansion<'_> {
         let rows: Vec<Expr> = rates
             .chain(self.own.equations.force.iter().copied())
             .collect();
+        let rows = self.flat(&rows, 1).functions;
         self.at_rows(&g.jacobian(&rows, inputs))
     }
 
@@ -254,6 +255,7 @@ impl Expansion<'_> {
         let rates: Vec<Expr> = speeds.map(|own| own.rate).collect();
         let symbols: Vec<Symbol> = rates.iter().filter_map(|&e| g.as_symbol(e)).collect();
         let still: Vec<(Expr, Expr)> = rates.iter().map(|&rate| (rate, g.zero())).collect();
+        let own = self.with_slopes(name, own, &still)?;
         let by_rates = g.substitute_all(&g.gradient(own, &symbols), &still);
         let by_rates = self.at(&by_rates);
         let own = g.substitute(own, &still);
@@ -261,7 +263,7 @@ impl Expansion<'_> {
         let mut row = self.reduced(&self.reduction(), &row);
         let mut by = self.at(&g.gradient(own, inputs));
         let entries = [row.clone(), by.clone(), by_rates.clone()].concat();
-        if !self.has_slopes(own, &entries) {
+        if !entries.iter().all(|&e| has_value(g, e)) {
             return Err(StateSpaceError::NotSmooth { name: name.into() });
         }
         let first = space.states.len() - by_rates.len();
@@ -277,17 +279,30 @@ impl Expansion<'_> {
 }
 
 impl Expansion<'_> {
-    /// Whether an output has no corner at the motion, and its slopes there are defined.
-    fn has_slopes(&self, output: Expr, slopes: &[Expr]) -> bool {
+    /// An output without what has the slope 0 beside the motion; `known` are the values of what no motion gives.
+    ///
+    /// # Errors
+    /// [`StateSpaceError::NotSmooth`] where it has a corner at the motion.
+    pub(crate) fn with_slopes(
+        &self,
+        name: &str,
+        output: Expr,
+        known: &[(Expr, Expr)],
+    ) -> Result<Expr, StateSpaceError> {
         let g = self.graph();
-        let corners = corners(g, &[output]).into_iter().map(|(_, inside)| inside);
-        let inside = self.at(&corners.collect::<Vec<_>>());
-        let precision = Precision::new(BITS);
-        let has_value = |&e: &Expr| {
-            !g.symbols_in(&[e]).is_empty() || g.enclose(&[e], &precision, &|_| None).is_ok()
-        };
-        !inside.iter().any(|&e| g.is_zero(e)) && slopes.iter().all(has_value)
+        let vanishes = |e: Expr| self.vanishes(g.substitute(e, known));
+        let flat = flattened(g, &[output], 1, &vanishes);
+        match (flat.corner, &flat.functions[..]) {
+            (None, &[own]) => Ok(own),
+            _ => Err(StateSpaceError::NotSmooth { name: name.into() }),
+        }
     }
+}
+
+/// Whether an expression has a value: it contains parameters, or it is a number.
+fn has_value(g: &Graph, e: Expr) -> bool {
+    let precision = Precision::new(BITS);
+    !g.symbols_in(&[e]).is_empty() || g.enclose(&[e], &precision, &|_| None).is_ok()
 }
 
 /// The inverse of a matrix of numbers, by one elimination; `None` where an entry is none, or the matrix is singular.

@@ -20,6 +20,9 @@ impl Method for FirstApproximation {
                     why: found.detail,
                 })
             }
+            Place::Left if about.question.linear.family > 0 && about.expansion.has_corner() => {
+                Answer::Open("the theorem of Lyapunov and Malkin asks for smooth equations, and these have a corner at the motion".into())
+            }
             Place::Left => Answer::Stable(match about.question.linear.family {
                 0 => "by Lyapunov's first method: all eigenvalues lie left of the axis, and the motion is asymptotically stable".into(),
                 n => format!("by the theorem of Lyapunov and Malkin: all eigenvalues but the {n} of the family of steady motions lie left of the axis, so that the motion is stable and its neighbours tend to members of the family"),

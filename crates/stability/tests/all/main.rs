@@ -4,6 +4,7 @@
 mod borders;
 mod chains;
 mod common;
+mod corners;
 mod descriptor;
 mod reference;
 mod state_space;
