@@ -16,7 +16,7 @@
 //!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
 //!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`, that of a `critical` direction.
 //!    [`witness`]: runs beside it as a witness where nothing is decided.
-//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations (`steady_equations`) are polynomials in the unknowns, their sines and roots,
+//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations (`steady_equations`) are polynomials in the unknowns, their sines and roots, real ones only (`semidefinite`),
 //!    in as many `charts` of independent velocities as that takes;
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
@@ -56,6 +56,7 @@ pub mod real_roots;
 mod real_values;
 mod real_zeros;
 pub mod reduction;
+mod semidefinite;
 pub mod singular;
 pub mod spectrum;
 pub mod state_space;

@@ -9,6 +9,7 @@ use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, other_charts, union};
 use crate::left_out::vanish_nowhere;
 use crate::reduction::Speeds;
+use crate::semidefinite::RealParts;
 use crate::steady::closed;
 pub use crate::steady_equations::Sought;
 use crate::steady_equations::{choices, Asked, Equations};
@@ -151,6 +152,13 @@ fn in_chart(
     let vanishing = &polynomials[..count];
     let vanishing: Vec<Polynomial> = vanishing.iter().chain(&relations).cloned().collect();
     let chains = triangular_systems(&vanishing, &denominators, &order, meter)?;
+    let elimination = RealParts {
+        vanishing: &vanishing,
+        unknowns: &unknowns,
+        order: &order,
+        meter,
+    };
+    let chains = elimination.of(chains)?;
     let anywhere = equations.others().into_iter();
     let anywhere: Vec<Symbol> = anywhere.map(|j| system.coordinates[j].q_symbol).collect();
     let mut found = Vec::new();

@@ -199,6 +199,40 @@ y = 0
     assert!(dimensions[1..].iter().all(|&d| d == 1), "{dimensions:?}");
 }
 
+/// Potentials that are least at points, though over the complex numbers they are so on curves: x² + y² = 0 has one real point, ((x − 1)² + x² y²)²
+/// is least at (1, 0), ((1 − cos θ)² + x²)² at (0, 0), and beside it the potential has a saddle at (0, π). V = ((x − y)² + (y − z)²)² is least on the
+/// line x = y = z.
+#[test]
+fn points_of_complex_families_are_found_as_points() {
+    let of = |coordinates: &str, squares: &str, potential: &str| {
+        let case = Case::new(&format!(
+            r#"
+coordinates = [{coordinates}]
+[lagrangian]
+T = "1/2 ({squares})"
+V = "{potential}"
+"#
+        ));
+        found(&case)
+    };
+    let plane = |potential| of("\"x\", \"y\"", "x'^2 + y'^2", potential);
+    are(&plane("(x^2 + y^2)^2"), &[&[0.0; 4]]);
+    are(&plane("(x^2 + x y + y^2)^3"), &[&[0.0; 4]]);
+    are(&plane("((x - 1)^2 + x^2 y^2)^2"), &[&[1.0, 0.0, 0.0, 0.0]]);
+    let pi = std::f64::consts::PI;
+    let turning = of("\"x\", \"th\"", "x'^2 + th'^2", "((1 - cos(th))^2 + x^2)^2");
+    are(&turning, &[&[0.0; 4], &[0.0, pi, 0.0, 0.0]]);
+    let quadratic = of("\"x\", \"th\"", "x'^2 + th'^2", "(1 - cos(th) + x^2)^2");
+    are(&quadratic, &[&[0.0; 4], &[0.0, pi, 0.0, 0.0]]);
+    let space = |potential| {
+        let own = of("\"x\", \"y\", \"z\"", "x'^2 + y'^2 + z'^2", potential);
+        own.found.iter().map(Found::dimension).collect::<Vec<_>>()
+    };
+    assert_eq!(space("(x^2 + y^2 + z^2)^2"), [0]);
+    assert_eq!(space("((x - y)^2 + (y - z)^2)^2"), [1]);
+    assert_eq!(space("(x^2 + y^2 - z^2)^2"), [2, 2]);
+}
+
 /// The motion that is meant by guesses, in numbers: positions, then velocities.
 fn meant(case: &Case) -> Result<Vec<f64>, String> {
     let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);

@@ -29,7 +29,11 @@ over = "p"
 fn a_single_value_is_not_swept_away() {
     let damped = oscillator("0.5", "L = \"1/2 x'^2 - 1/2 x^2\"", "p^2 x' - x'^5");
     assert_eq!(damped.said("stability.nonlinear", "s"), "p = 0");
-    let case = oscillator("0.5", "L = \"1/2 x'^2 - 1/2 x^2\"", "p^2 x' - x'^5 + x^2 x'^3");
+    let case = oscillator(
+        "0.5",
+        "L = \"1/2 x'^2 - 1/2 x^2\"",
+        "p^2 x' - x'^5 + x^2 x'^3",
+    );
     let verdict = case.verdict("stability.nonlinear", "s");
     assert_eq!(verdict.word(), "refuted");
     let said = verdict.detail();
