@@ -9,7 +9,7 @@ use crate::real_zeros::real_zeros;
 use crate::steady_value::{precision, Generators, Unknown};
 use chetaev_symbolic::number::ball::Ball;
 use chetaev_symbolic::polynomial::{
-    triangular_systems, Meter, Monomial, Polynomial, TooLarge, TriangularSystem,
+    triangular_systems, Budget, Meter, Monomial, Polynomial, TooLarge, TriangularSystem,
 };
 use dashu_int::IBig;
 use dashu_ratio::RBig;
@@ -32,7 +32,9 @@ impl RealParts<'_> {
     ) -> Result<Vec<TriangularSystem>, TooLarge> {
         let (mut open, mut found) = (systems, Vec::new());
         while let Some(system) = open.pop() {
-            let further = self.vanishing_with(&system)?;
+            // Where that is too much work the family stays as it is, which is true of it too.
+            let further = self.vanishing_with(&system, &Meter::new(Budget::DISPLAY));
+            let further = further.unwrap_or_default();
             if further.is_empty() {
                 found.push(system);
                 continue;
@@ -53,7 +55,11 @@ impl RealParts<'_> {
     }
 
     /// What vanishes at the real zeros of a family besides its equations.
-    fn vanishing_with(&self, system: &TriangularSystem) -> Result<Vec<Polynomial>, TooLarge> {
+    fn vanishing_with(
+        &self,
+        system: &TriangularSystem,
+        meter: &Meter,
+    ) -> Result<Vec<Polynomial>, TooLarge> {
         let is_determined = |at: &usize| system.equations.iter().any(|(own, _)| own == at);
         let mut known: Vec<usize> = Vec::new();
         let mut is_family = false;
@@ -76,7 +82,7 @@ impl RealParts<'_> {
         };
         let mut equations = system.equations.iter().filter(|(_, p)| is_plain(p));
         equations.try_fold(Vec::new(), |mut found, (_, p)| {
-            found.extend(vanishing_with(p, self.unknowns, self.meter)?);
+            found.extend(vanishing_with(p, self.unknowns, meter)?);
             Ok(found)
         })
     }
@@ -213,7 +219,6 @@ fn is_positive_in(p: &Polynomial, generator: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chetaev_symbolic::polynomial::Budget;
 
     fn polynomial(terms: &[(&[u16], i64)]) -> Polynomial {
         let of = |(n, c): &(&[u16], i64)| (Monomial::from_exponents(n), IBig::from(*c));
