@@ -1365,12 +1365,12 @@ class Trajectory(Result):
         """
         self._save(folder)
 
-    def _save(self, folder: str | os.PathLike[str]) -> list[Any]:
-        """The names of what was written."""
+    def _save(self, folder: str | os.PathLike[str]) -> dict[str, Any]:
+        """What the data say of what was written."""
         files = _data_files(self._outcome)
         for name, content in files.items():
             write(os.path.join(folder, name), content)
-        return list(files)
+        return {"files": list(files)}
 
     def render_static(self) -> str:
         """HTML with the report inside, which exported notebooks keep.
@@ -1604,8 +1604,8 @@ class Study(Result):
         """
         self._save(folder)
 
-    def _save(self, folder: str | os.PathLike[str]) -> list[Any]:
-        """The names and checksums of what was written."""
+    def _save(self, folder: str | os.PathLike[str]) -> dict[str, Any]:
+        """What the data say of what was written."""
         import hashlib
 
         files = _data_files(self._outcome) if self._outcome.has_motion else {}
@@ -1617,7 +1617,7 @@ class Study(Result):
             record["files"].append({"name": name, "sha256": hashlib.sha256(content).hexdigest()})
         text = json.dumps(record, indent=2, ensure_ascii=False) + "\n"
         write(os.path.join(folder, "study.json"), text.encode())
-        return list(record["files"])
+        return {key: record[key] for key in ("files", "trajectory") if key in record}
 
     def to_sympy(self) -> dict[str, list[Any]]:
         """The formulas of the evidence in SymPy by their claims, as :meth:`Verdict.to_sympy`.

@@ -1,4 +1,4 @@
-"""Arrays of doubles by their numbers of axes: what annotations say where the number is fixed.
+"""Arrays by their numbers of axes: what annotations say where the number is fixed.
 
 Python does not evaluate annotations, so that nothing imports NumPy for them.
 """
@@ -14,4 +14,5 @@ if TYPE_CHECKING:
     Matrix = np.ndarray[tuple[int, int], np.dtype[np.float64]]
     #: A matrix for each of many times.
     Matrices = np.ndarray[tuple[int, int, int], np.dtype[np.float64]]
+    Numbers = np.ndarray[tuple[int], np.dtype[np.uint64]]
     ComplexVector = np.ndarray[tuple[int], np.dtype[np.complex128]]

@@ -883,7 +883,7 @@ class System(Shown):
         writable(out)
         with _Progress(progress) as tell:
             outcome = self._anew().principles(asked, compare, tell)
-        return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out, is_told=False)
+        return _finished(Study(outcome, outcome.story(), (self, "principles", asked, compare)), outcome, out)
 
     def sweep(
         self,
@@ -1386,13 +1386,11 @@ def _wanted(**options: Any) -> dict[str, Any]:
     return asked
 
 
-def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[str] | None, *, is_told: bool = True) -> _Found:
-    """What was computed, written into a folder; its data name the files where those of the command do."""
+def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[str] | None) -> _Found:
+    """What was computed, written into a folder; its data name the files, as those of the command do."""
     if out is not None:
-        files = result._save(out)
-        if is_told:
-            result._data["files"] = files
-            result._folder = os.path.abspath(out)
+        result._data |= result._save(out)
+        result._folder = os.path.abspath(out)
     if outcome.interrupted:
         raise Interrupted(result)
     return result

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import keyword
+import re
 from pathlib import Path
 from typing import Any
 
@@ -175,3 +177,43 @@ def test_what_the_model_does_not_determine_has_no_start() -> None:
         exec(own.derive("vakonomic").to("python"), space)
         # z' = y x'
         np.testing.assert_allclose(space["start"], [0, 0.4, 0, 0.8, 1.1, 0.4 * 0.8, kappa])
+
+
+def test_names_may_be_words_of_python() -> None:
+    """Oscillators a_i = -k x_i/m_i whose coordinates, masses and stiffness are called as Python's keywords and what the text itself calls."""
+    words = [*keyword.kwlist, "float", "np", "dy"]
+    half = len(words) // 2
+    coordinates, masses, stiffness = words[:half], words[half : 2 * half], "k"
+    masses_of = {name: 1 + at for at, name in enumerate(masses)}
+    system = System(
+        "words",
+        coordinates=coordinates,
+        parameters={**masses_of, stiffness: 3},
+        kinetic=" + ".join(f"1/2 {m} {x}'^2" for x, m in zip(coordinates, masses)),
+        potential=" + ".join(f"1/2 {stiffness} {x}^2" for x in coordinates),
+        initial={x: 0.1 * (at + 1) for at, x in enumerate(coordinates)},
+    )
+    places = 0.1 * np.arange(1, half + 1)
+    expected = np.concatenate([np.zeros(half), -3 * places / np.arange(1, half + 1)])
+    space: dict[str, Any] = {}
+    exec(system.derive("reduced").to("python"), space)
+    np.testing.assert_allclose(space["rhs"](0.0, space["start"], space["parameters"]), expected, rtol=1e-14)
+    pytest.importorskip("casadi")
+    found = system.to_casadi()
+    assert found.state == [*coordinates, *(f"{x}'" for x in coordinates)] and list(found.parameters) == [*masses, stiffness]
+    np.testing.assert_allclose(np.array(found.rhs(0.0, found.start, found.p)).ravel(), expected, rtol=1e-14)
+    pytest.importorskip("sympy")
+    equations = system.derive("routh")[0].to_sympy()
+    assert sum(map(len, equations.values())) >= half
+
+
+def test_names_may_be_words_of_matlab_and_julia() -> None:
+    words = ["try", "using", "switch", "parfor", "persistent", "where", "classdef", "endif", "baremodule"]
+    system = System(
+        "words", coordinates=["x"], parameters=words, kinetic="1/2 x'^2", potential=" + ".join(f"{own} x^{at + 1}" for at, own in enumerate(words)),
+    )
+    derived = system.derive("reduced")
+    for notation in ("python", "matlab", "julia"):
+        inside = derived.to(notation).partition("rhs")[2]
+        assigned = re.findall(r"^    (\w+) = p[\[(]", inside, re.MULTILINE)
+        assert assigned == [f"{own}_" for own in words], notation

@@ -19,6 +19,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import sympy as sp
+from test_commands import without
 
 import chetaev
 from chetaev import System
@@ -509,7 +510,15 @@ def test_files_that_were_asked_for_are_in_the_data(sleigh: System, command: Any,
     assert sleigh.sweep(vary={"a": [0.1]}, t_end=1, out=out).to_dict()["archive"] == str(out / "sweep.npz")
     assert theirs("sweep", path, "--vary", "a=0.1")["archive"] == str(tmp_path / "theirs" / "sweep.npz")
     principles = sleigh.principles(compare=True, t_end=1, out=out).to_dict()
-    assert principles["files"] == theirs("principles", path, "--compare")["files"]
+    wanted = theirs("principles", path, "--compare")
+    named = [own["name"] for own in principles["files"]]
+    assert named == [own["name"] for own in wanted["files"]] == ["trajectory.csv", "trajectory.npz", "report.html"]
+    for own in principles["files"]:
+        assert hashlib.sha256((out / own["name"]).read_bytes()).hexdigest() == own["sha256"]
+    # The record names the data of the motion a second time, and a page has the seconds that its claims took.
+    for own in (principles, study):
+        assert own["trajectory"]["files"] == wanted["trajectory"]["files"] == ["trajectory.csv", "trajectory.npz"]
+    assert without(principles, "seconds", "sha256", "path") == without(wanted, "seconds", "sha256", "path")
     assert sleigh.simulate(t_end=1).to_dict()["files"] == []
 
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from conftest import ROOT
 
 import chetaev
 from chetaev import chetaev_native
@@ -25,6 +27,22 @@ def test_mypy_finds_nothing() -> None:
         check=False,
     )
     assert done.returncode == 0, done.stdout
+
+
+def test_stubs_are_what_the_native_part_states() -> None:
+    """The package has the stub that its library states; what is kept in the repository, and goes into the wheel, is no other one."""
+    stated = (Path(chetaev.__file__).parent / "chetaev_native.pyi").read_text(encoding="utf-8")
+    kept = (ROOT / "python" / "chetaev" / "chetaev_native.pyi").read_text(encoding="utf-8")
+    assert kept == stated, "python/chetaev/chetaev_native.pyi is out of date: `cargo xtask python --stub` writes it"
+
+
+def test_stubs_say_every_type() -> None:
+    """PyO3 writes `Incomplete` where it knows none, and `Any` for any object."""
+    text = (Path(chetaev.__file__).parent / "chetaev_native.pyi").read_text(encoding="utf-8")
+    assert "Incomplete" not in text
+    open_ones = [line.strip() for line in text.splitlines() if re.search(r"\bAny\b", line.replace("NDArray[Any]", ""))]
+    assert [line.split("(")[0] for line in open_ones if line.startswith("def ")] == ["def __reduce__", "def ctypes"]
+    assert all(line.startswith(("def ", "from typing ")) for line in open_ones)
 
 
 def arguments(node: ast.FunctionDef) -> list[tuple[str, bool]]:
@@ -47,6 +65,7 @@ def test_stubs_have_what_the_native_part_has() -> None:
     assert set(classes) == set(native)
     for name, node in classes.items():
         stubs = {own.name: own for own in node.body if isinstance(own, ast.FunctionDef)}
+        stubs = {key: own for key, own in stubs.items() if not key.startswith("__") or key == "__call__"}
         members = {key: own for key, own in vars(native[name]).items() if not key.startswith("__") or key == "__call__"}
         assert set(stubs) == set(members), name
         for key, own in members.items():

@@ -26,6 +26,7 @@ mod lines;
 mod lines_of_models;
 mod measure;
 mod python;
+mod stub;
 mod summary;
 mod test;
 mod web;

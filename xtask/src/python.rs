@@ -1,6 +1,7 @@
-//! `cargo xtask python`: the Python package beside a virtual environment, and its tests.
+//! `cargo xtask python`: the Python package beside a virtual environment, its tests, and the stub of its native part.
 
 use crate::extent::VARIABLE;
+use crate::stub::stub;
 use crate::{cargo, err, out, refuse, status_of};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,9 +10,13 @@ const HELP: &str = "\
 The Python package and its tests
 
 Usage: cargo xtask python [ARGUMENTS OF PYTEST]
+       cargo xtask python --stub
 
 Builds the native part as the Rust tests do, puts it beside the Python files in target/python, makes a virtual environment there
 and installs what the tests need by pip, once. Without Python 3.10 and pip nothing is done, and that is said.
+
+  --stub    writes python/chetaev/chetaev_native.pyi, the types of the native part, as its library states them, and runs no test;
+            a test fails where that file is another one
 ";
 
 /// What the tests import.
@@ -37,6 +42,9 @@ const NEEDED: [&str; 19] = [
     "myst-nb",
 ];
 
+/// The stub of the native part.
+const STUB: &str = "chetaev_native.pyi";
+
 /// What is built where nothing is built yet: the native part, and the command line that it is compared with.
 const ALONE: &[&str] = &["build", "-p", "chetaev-python", "-p", "chetaev-cli"];
 /// The same after the Rust tests. Which features the libraries have depends on all that is built at once, and where they are the same
@@ -45,7 +53,30 @@ const AFTER_TESTS: &[&str] = &["build", "--workspace", "--lib", "--bins", "--tes
 
 /// Runs the task; the exit status is that of the first program that fails.
 pub(crate) fn run(words: &[String]) -> u8 {
+    if words == ["--stub"] {
+        return write_stub();
+    }
     run_built(ALONE, words, None)
+}
+
+/// Writes the stub of the native part beside the Python files.
+fn write_stub() -> u8 {
+    let root = root();
+    let built = build(&root, ALONE);
+    if built != 0 {
+        return built;
+    }
+    let written = stub(&library(&root)).and_then(|text| {
+        let place = root.join("python").join("chetaev").join(STUB);
+        std::fs::write(place, text).map_err(|problem| problem.to_string())
+    });
+    match written {
+        Ok(()) => 0,
+        Err(problem) => {
+            err(&format!("error: {STUB}: {problem}\n"));
+            1
+        }
+    }
 }
 
 /// Runs the Python tests after those of Rust, to the same extent.
@@ -53,21 +84,19 @@ pub(crate) fn after_tests(extent: &str) -> u8 {
     run_built(AFTER_TESTS, &[], Some(extent))
 }
 
-fn run_built(build: &[&str], words: &[String], extent: Option<&str>) -> u8 {
+fn run_built(what: &[&str], words: &[String], extent: Option<&str>) -> u8 {
     if words.iter().any(|word| word == "--help" || word == "-h") {
         out(HELP);
         return 0;
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = root();
     let Some(python) = python() else {
         out("The Python package is not tested: Python 3.10 or newer with venv and pip was not found.\n");
         return 0;
     };
-    let built = cargo().args(build).current_dir(&root).status();
-    match built {
-        Ok(status) if status.success() => {}
-        Ok(status) => return status_of(status),
-        Err(problem) => return refuse(&format!("cargo could not be run: {problem}")),
+    let built = build(&root, what);
+    if built != 0 {
+        return built;
     }
     let folder = root.join("target").join("python");
     let prepared = environment(&python, &folder).and_then(|own| {
@@ -95,6 +124,18 @@ fn run_built(build: &[&str], words: &[String], extent: Option<&str>) -> u8 {
     match tests {
         Ok(status) => status_of(status),
         Err(problem) => refuse(&format!("Python could not be run: {problem}")),
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Runs cargo; the status is 0 where all is built.
+fn build(root: &Path, what: &[&str]) -> u8 {
+    match cargo().args(what).current_dir(root).status() {
+        Ok(status) => status_of(status),
+        Err(problem) => refuse(&format!("cargo could not be run: {problem}")),
     }
 }
 
@@ -156,12 +197,31 @@ fn package(root: &Path, folder: &Path) -> std::io::Result<()> {
             std::fs::copy(&path, own.join(name))?;
         }
     }
-    let [built, named] = match std::env::consts::OS {
-        "windows" => ["chetaev_native.dll", "chetaev_native.pyd"],
-        "macos" => ["libchetaev_native.dylib", "chetaev_native.abi3.so"],
-        _ => ["libchetaev_native.so", "chetaev_native.abi3.so"],
+    let built = library(root);
+    let named = if cfg!(windows) {
+        "chetaev_native.pyd"
+    } else {
+        "chetaev_native.abi3.so"
     };
-    let built = root.join("target").join("debug").join(built);
-    std::fs::copy(built, own.join(named))?;
-    Ok(())
+    std::fs::copy(&built, own.join(named))?;
+    // The tests see what the library states, and hold the file that is kept against it.
+    match stub(&built) {
+        Ok(text) => std::fs::write(own.join(STUB), text),
+        // What PyO3 cannot read yet: libraries as the linker of macOS writes them.
+        Err(problem) if cfg!(target_os = "macos") => {
+            out(&format!("{STUB} is not compared: {problem}\n"));
+            Ok(())
+        }
+        Err(problem) => Err(std::io::Error::other(problem)),
+    }
+}
+
+/// The native part as cargo builds it.
+fn library(root: &Path) -> PathBuf {
+    let named = match std::env::consts::OS {
+        "windows" => "chetaev_native.dll",
+        "macos" => "libchetaev_native.dylib",
+        _ => "libchetaev_native.so",
+    };
+    root.join("target").join("debug").join(named)
 }

@@ -1,6 +1,7 @@
 //! Equations of motion as functions over NumPy arrays.
 
 use crate::address::{Data, Door};
+use crate::annotated::{ArrayLike, Doubles, Target, Vector};
 use crate::program::{Program, Ready};
 use crate::texts::Pairs;
 use crate::{problem, waiting};
@@ -276,7 +277,7 @@ impl Compiled {
     }
 
     /// One of the functions, with these values of the parameters, in their order.
-    #[pyo3(signature = (what, parameters=None))]
+    #[pyo3(signature = (what, parameters: "list[float] | None" = None))]
     fn function(
         &self,
         py: Python<'_>,
@@ -361,12 +362,12 @@ impl Function {
     }
 
     /// One state.
-    fn one(
+    fn one<'py>(
         &self,
         t: f64,
-        y: &PyReadonlyArray1<'_, f64>,
-        write: impl FnOnce(&[f64]) -> PyResult<Py<PyAny>>,
-    ) -> PyResult<Py<PyAny>> {
+        y: &PyReadonlyArray1<'py, f64>,
+        write: impl FnOnce(&[f64]) -> PyResult<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let program = &self.program;
         let done = self.with_ready(|ready| match y.as_slice() {
             Ok(y) => write(program.at(ready, t, y.iter().copied())),
@@ -598,29 +599,27 @@ fn array<'py>(
     Ok(value.clone())
 }
 
-#[pymethods]
 impl Function {
-    #[pyo3(signature = (t, y, out=None))]
-    fn __call__<'py>(
+    /// The values at one state, or at many.
+    fn call<'py>(
         &self,
         py: Python<'py>,
-        t: &Bound<'py, PyAny>,
-        y: &Bound<'py, PyAny>,
+        (t, y): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
         out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Py<PyAny>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let single = y.cast::<PyArray1<f64>>().ok();
         let single =
             single.filter(|y| y.len() == self.program.width && self.program.shape.len() == 1);
         let single = single.filter(|y| is_plain(y));
         let (Some(single), Ok(time)) = (single, t.extract::<f64>()) else {
-            return Ok(self.general(py, (t, y), out)?.unbind());
+            return self.general(py, (t, y), out);
         };
         let y = single
             .try_readonly()
             .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
         match out.map(|out| out.cast::<PyArray1<f64>>()) {
             None => self.one(time, &y, |values| {
-                Ok(PyArray1::from_slice(py, values).into_any().unbind())
+                Ok(PyArray1::from_slice(py, values).into_any())
             }),
             Some(Ok(target)) if target.len() == self.program.size() => {
                 self.one(time, &y, |values| {
@@ -629,7 +628,7 @@ impl Function {
                         .as_slice_mut()
                         .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
                     own.copy_from_slice(values);
-                    Ok(target.clone().into_any().unbind())
+                    Ok(target.clone().into_any())
                 })
             }
             Some(_) => Err(PyTypeError::new_err(format!(
@@ -637,6 +636,20 @@ impl Function {
                 self.program.size()
             ))),
         }
+    }
+}
+
+#[pymethods]
+impl Function {
+    #[pyo3(signature = (t, y, out=None))]
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        t: ArrayLike<'_, 'py>,
+        y: ArrayLike<'_, 'py>,
+        out: Option<Target<'_, 'py>>,
+    ) -> PyResult<Doubles<'py>> {
+        self.call(py, (&t, &y), out.as_deref()).map(Doubles)
     }
 
     /// Where the function `void f(double t, double *y, double *values, double *data)` is, for callers that know C only: Numba,
@@ -650,10 +663,10 @@ impl Function {
     /// may be changed: for all calls by the address that hand it over, and not for calls of this object. It serves as long as it lives itself; by a
     /// copy of it the values are not a number once it and this object are gone.
     #[getter]
-    fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn data<'py>(&self, py: Python<'py>) -> PyResult<Vector<'py>> {
         let made = || Ok(Data::array(py, self.door().clone(), &self.parameters)?.unbind());
         let found: PyResult<&Py<PyArray1<f64>>> = self.data.get_or_try_init(py, made);
-        Ok(found?.bind(py).clone())
+        Ok(Vector(found?.bind(py).clone()))
     }
 
     /// The function at `address` as `ctypes` has it.

@@ -1,5 +1,6 @@
 //! A functional of fields over space, and what can be asked of it.
 
+use crate::annotated::Tell;
 use crate::texts::{files_beside, not_written, text_at, with_overrides, Pairs};
 use crate::{problem, waiting};
 use chetaev::functionals::read::reload;
@@ -127,6 +128,7 @@ enum NotDerived {
 impl Functional {
     /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
     #[staticmethod]
+    #[pyo3(signature = (path, overrides: "list[tuple[str, str]]"))]
     fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Functional> {
         let text = text_at(path)?;
         Functional::load(py, (path, &text), &*files_beside(Some(path)), &overrides)
@@ -134,6 +136,7 @@ impl Functional {
 
     /// Reads a model from its text. Files that it includes are looked for as if it stood at `path`; nothing is included without one.
     #[staticmethod]
+    #[pyo3(signature = (text, path, overrides: "list[tuple[str, str]]"))]
     fn from_text(
         py: Python<'_>,
         text: &str,
@@ -151,6 +154,7 @@ impl Functional {
 
     /// Reads a model again from what `texts` gave.
     #[staticmethod]
+    #[pyo3(signature = (path, text, includes: "list[tuple[str, str]]", overrides: "list[tuple[str, str]]"))]
     fn from_texts(
         py: Python<'_>,
         path: String,
@@ -251,7 +255,7 @@ impl Functional {
         &self,
         py: Python<'_>,
         claims: &str,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, String, String, bool)> {
         let words =
             selected(claims).map_err(|why| problem::of_option(py, &format!("claims: {why}")))?;

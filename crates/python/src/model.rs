@@ -1,5 +1,6 @@
 //! A model, and what can be asked of it.
 
+use crate::annotated::{Checksum, Keywords, Tell};
 use crate::compiled::Compiled;
 use crate::linear::Linear;
 use crate::outcome::Outcome;
@@ -184,7 +185,7 @@ impl Model {
         &self,
         py: Python<'_>,
         options: StudyOptions,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Outcome> {
         let own = self.model.clone();
         let found = waiting::done(py, tell, |hooks| study(own, options, hooks))?;
@@ -198,7 +199,7 @@ impl Model {
     fn with_equations(
         &self,
         py: Python<'_>,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
         work: impl FnOnce(&Context<'_>, &dyn Fn(&str)) -> Result<String, NotWritten> + Send,
     ) -> PyResult<(String, Vec<String>)> {
         let system = self.system(py)?;
@@ -233,6 +234,7 @@ impl Model {
 impl Model {
     /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
     #[staticmethod]
+    #[pyo3(signature = (path, overrides: "list[tuple[str, str]]"))]
     fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Model> {
         let (text, files) = (text_at(path)?, files_beside(Some(path)));
         let loaded = waiting::whole(py, None, |_| model::load(path, &text, &*files, &overrides))?;
@@ -241,6 +243,7 @@ impl Model {
 
     /// Reads a model from its text. Files that it includes are looked for as if it stood at `path`; nothing is included without one.
     #[staticmethod]
+    #[pyo3(signature = (text, path, overrides: "list[tuple[str, str]]"))]
     fn from_text(
         py: Python<'_>,
         text: &str,
@@ -255,6 +258,7 @@ impl Model {
 
     /// Reads a model again from what `texts` gave.
     #[staticmethod]
+    #[pyo3(signature = (path, text, includes: "list[tuple[str, str]]", overrides: "list[tuple[str, str]]"))]
     fn from_texts(
         py: Python<'_>,
         path: String,
@@ -362,7 +366,7 @@ impl Model {
     }
 
     /// A Python module whose list `found["all"]` has these expressions in SymPy; variables of a state that is not the model's may occur.
-    #[pyo3(signature = (texts, variables))]
+    #[pyo3(signature = (texts: "list[str]", variables: "list[str]"))]
     fn sympy(
         &self,
         py: Python<'_>,
@@ -385,14 +389,14 @@ impl Model {
     }
 
     /// The equations of formulations in a notation, and notes: `derive`.
-    #[pyo3(signature = (names, all, notation, tell=None))]
+    #[pyo3(signature = (names: "list[str]", all, notation, tell=None))]
     fn derive(
         &self,
         py: Python<'_>,
         names: Vec<String>,
         all: bool,
         notation: &str,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, Vec<String>)> {
         let notation = notation_named(py, notation)?;
         let asked = formulations(py, &names, all)?;
@@ -407,13 +411,13 @@ impl Model {
     }
 
     /// The operations of the equations of formulations, a line for each, and notes: `derive --count`.
-    #[pyo3(signature = (names, all, tell=None))]
+    #[pyo3(signature = (names: "list[str]", all, tell=None))]
     fn count(
         &self,
         py: Python<'_>,
         names: Vec<String>,
         all: bool,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, Vec<String>)> {
         let asked = formulations(py, &names, all)?;
         self.with_equations(py, tell, |cx, show| {
@@ -423,14 +427,14 @@ impl Model {
     }
 
     /// The derivations of formulations step by step, and notes: `derive --steps`.
-    #[pyo3(signature = (names, all, notation, tell=None))]
+    #[pyo3(signature = (names: "list[str]", all, notation, tell=None))]
     fn steps(
         &self,
         py: Python<'_>,
         names: Vec<String>,
         all: bool,
         notation: &str,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, Vec<String>)> {
         let notation = notation_named(py, notation)?;
         let asked = formulations(py, &names, all)?;
@@ -447,7 +451,7 @@ impl Model {
         py: Python<'_>,
         a: &str,
         b: &str,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, Vec<String>)> {
         self.with_equations(py, tell, |cx, show| written::comparison(cx, (a, b), show))
     }
@@ -457,8 +461,8 @@ impl Model {
     fn study(
         &self,
         py: Python<'_>,
-        asked: &Bound<'_, PyAny>,
-        tell: Option<&Bound<'_, PyAny>>,
+        asked: Keywords<'_, '_>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Outcome> {
         let asked: Asked = asked.extract()?;
         let claims = match &asked.claims {
@@ -481,8 +485,8 @@ impl Model {
     fn simulate(
         &self,
         py: Python<'_>,
-        asked: &Bound<'_, PyAny>,
-        tell: Option<&Bound<'_, PyAny>>,
+        asked: Keywords<'_, '_>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Outcome> {
         let options = StudyOptions {
             claims: ClaimSelection::of_motion(),
@@ -496,9 +500,9 @@ impl Model {
     fn principles(
         &self,
         py: Python<'_>,
-        asked: &Bound<'_, PyAny>,
+        asked: Keywords<'_, '_>,
         compare: bool,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Outcome> {
         let asked: Asked = asked.extract()?;
         let kappa = self.kappa(py, &asked)?;
@@ -516,9 +520,9 @@ impl Model {
     fn sweep(
         &self,
         py: Python<'_>,
-        asked: &Bound<'_, PyAny>,
-        varied: &Bound<'_, PyAny>,
-        tell: Option<&Bound<'_, PyAny>>,
+        asked: Keywords<'_, '_>,
+        varied: Keywords<'_, '_>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Sweep> {
         let varied: Varied = varied.extract()?;
         let options = SweepOptions {
@@ -540,7 +544,7 @@ impl Model {
         &self,
         py: Python<'_>,
         symbolic: bool,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, String)> {
         let found = waiting::whole(py, tell, |hooks| {
             (hooks.progress)("steady motions", None);
@@ -567,7 +571,7 @@ impl Model {
         period: Option<String>,
         points: usize,
         step: f64,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, String)> {
         let found = waiting::whole(py, tell, |hooks| {
             (hooks.progress)("following", None);
@@ -595,7 +599,7 @@ impl Model {
         over: &str,
         about: Option<&str>,
         at: Option<&str>,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(String, String, String)> {
         let found = waiting::whole(py, tell, |hooks| {
             let what = "map of stability";
@@ -617,7 +621,7 @@ impl Model {
 
     /// Linear equations along the motion from the initial state, in words and as JSON: `linearize --along`.
     #[pyo3(signature = (tell=None))]
-    fn along(&self, py: Python<'_>, tell: Option<&Bound<'_, PyAny>>) -> PyResult<(String, String)> {
+    fn along(&self, py: Python<'_>, tell: Option<Tell<'_, '_>>) -> PyResult<(String, String)> {
         let found = waiting::whole(py, tell, |hooks| {
             (hooks.progress)("linear equations along the motion", None);
             sensitivity::along_motion(&self.model).map_err(Box::new)
@@ -629,7 +633,7 @@ impl Model {
     }
 
     /// Names of columns and rows of numbers: `simulate --sensitivity`.
-    #[pyo3(signature = (by, second, times, project=false, tell=None))]
+    #[pyo3(signature = (by, second, times: "list[float]", project=false, tell=None))]
     fn sensitivity(
         &self,
         py: Python<'_>,
@@ -637,7 +641,7 @@ impl Model {
         second: bool,
         times: Vec<f64>,
         project: bool,
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<(Vec<String>, Vec<Vec<f64>>)> {
         let options = StudyOptions {
             project,
@@ -664,8 +668,8 @@ impl Model {
     fn stability(
         &self,
         py: Python<'_>,
-        wanted: &Bound<'_, PyAny>,
-        tell: Option<&Bound<'_, PyAny>>,
+        wanted: Keywords<'_, '_>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Linear> {
         let wanted: Linearized = wanted.extract()?;
         let found = waiting::whole(py, tell, |hooks| {
@@ -801,8 +805,8 @@ pub(crate) fn verify(
     py: Python<'_>,
     record: &str,
     budget: f64,
-    tell: Option<&Bound<'_, PyAny>>,
-    checksum: Option<&Bound<'_, PyAny>>,
+    tell: Option<Tell<'_, '_>>,
+    checksum: Option<Checksum<'_, '_>>,
 ) -> PyResult<(String, bool)> {
     use chetaev::study::verify::{agrees, files, read, verify, Verified, VerifyError};
     let wrong = |problem: VerifyError| problem::of_option(py, &problem);

@@ -1,5 +1,6 @@
 //! A study with its motion.
 
+use crate::annotated::{Matrix, Tell, Vector};
 use crate::{problem, waiting};
 use chetaev::study::picture::{self, Scene, View};
 use chetaev::study::table::Table;
@@ -57,11 +58,13 @@ impl Outcome {
     }
 
     /// The record of a study as JSON; `files` lie beside it.
+    #[pyo3(signature = (files: "list[str]"))]
     fn record(&self, files: Vec<String>) -> String {
         serde_json::to_string(&record::record(&self.study, &files)).unwrap_or_default()
     }
 
     /// The record of the motion as JSON.
+    #[pyo3(signature = (files: "list[str]"))]
     fn run(&self, files: Vec<String>) -> String {
         record::run(&self.study, &files).to_string()
     }
@@ -77,24 +80,25 @@ impl Outcome {
     }
 
     /// The report, one HTML page.
+    #[pyo3(signature = (files: "list[str]"))]
     fn page(&self, py: Python<'_>, files: Vec<String>) -> PyResult<String> {
         waiting::whole(py, None, |_| page::page(&self.study, None, &files))
     }
 
     /// Names of the columns, and the columns as the rows of one array.
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<(Vec<String>, Bound<'py, PyArray2<f64>>)> {
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<(Vec<String>, Matrix<'py>)> {
         let table = self.table()?;
         let array = PyArray2::from_vec2(py, &table.columns)
             .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
-        Ok((table.names.clone(), array))
+        Ok((table.names.clone(), Matrix(array)))
     }
 
     /// What the doubles of the columns leave out, of a run in double-double arithmetic.
-    fn low<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
+    fn low<'py>(&self, py: Python<'py>) -> PyResult<Vec<Vector<'py>>> {
         let columns = self.table()?.precise.iter();
         let low = columns.map(|column| {
             let low: Vec<f64> = column.iter().map(|x| x.low()).collect();
-            PyArray1::from_vec(py, low)
+            Vector(PyArray1::from_vec(py, low))
         });
         Ok(low.collect())
     }
@@ -145,7 +149,7 @@ impl Outcome {
         py: Python<'_>,
         seconds: Option<f64>,
         size: (u32, u32),
-        tell: Option<&Bound<'_, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Vec<u8>> {
         let scene = self.drawn()?;
         let view = View {

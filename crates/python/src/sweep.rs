@@ -1,5 +1,6 @@
 //! Many trajectories of one model: `sweep`.
 
+use crate::annotated::{Column, Numbers, Tell};
 use crate::texts::Pairs;
 use crate::{problem, waiting};
 use chetaev::ensemble::pool::{self, Batch};
@@ -115,22 +116,13 @@ impl Sweep {
 }
 
 /// Numbers of trajectories, the columns, the failures with their reasons.
-type Arrays<'py> = (
-    Bound<'py, PyArray1<u64>>,
-    Vec<Bound<'py, PyAny>>,
-    Vec<(u64, String)>,
-);
+type Arrays<'py> = (Numbers<'py>, Vec<Column<'py>>, Vec<(u64, String)>);
 
 /// How many trajectories a folder had before, what is to be said of it, what it has of a sweep that is not complete, and whether Ctrl-C ended it.
 type Kept<'py> = (u64, Option<String>, Option<Arrays<'py>>, bool);
 
 /// Numbers of trajectories, the columns, the failures with their reasons, and whether Ctrl-C ended it.
-type Computed<'py> = (
-    Bound<'py, PyArray1<u64>>,
-    Vec<Bound<'py, PyAny>>,
-    Vec<(u64, String)>,
-    bool,
-);
+type Computed<'py> = (Numbers<'py>, Vec<Column<'py>>, Vec<(u64, String)>, bool);
 
 #[pymethods]
 impl Sweep {
@@ -167,7 +159,7 @@ impl Sweep {
         last: u64,
         threads: Option<usize>,
         stop_on_failure: bool,
-        tell: Option<&Bound<'py, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Computed<'py>> {
         let threads = threads.unwrap_or_else(all_threads);
         let last = last.min(self.prepared.count());
@@ -189,7 +181,7 @@ impl Sweep {
         folder: PathBuf,
         threads: Option<usize>,
         stop_on_failure: bool,
-        tell: Option<&Bound<'py, PyAny>>,
+        tell: Option<Tell<'_, '_>>,
     ) -> PyResult<Kept<'py>> {
         let with = (threads.unwrap_or_else(all_threads), stop_on_failure);
         let found = waiting::done(py, tell, |hooks| self.kept(&folder, with, hooks))?;
@@ -276,10 +268,10 @@ impl Sweep {
                     PyArray1::from_vec(py, all).into_any()
                 }
             };
-            arrays.push(array);
+            arrays.push(Column(array));
         }
         let indices = chetaev::ensemble::Columns::indices(count, bytes);
-        let indices = PyArray1::from_vec(py, indices);
+        let indices = Numbers(PyArray1::from_vec(py, indices));
         Ok((indices, arrays, columns.failures(count, bytes)))
     }
 }

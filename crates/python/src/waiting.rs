@@ -1,5 +1,6 @@
 //! Long work on a thread of its own, while the thread of Python hears signals and shows progress.
 
+use crate::annotated::Tell;
 use chetaev::study::{interruptible, Hooks};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -27,7 +28,7 @@ pub(crate) struct Done<T> {
 /// `KeyboardInterrupt`, and as [`done`].
 pub(crate) fn whole<T: Send>(
     py: Python<'_>,
-    tell: Option<&Bound<'_, PyAny>>,
+    tell: Option<Tell<'_, '_>>,
     work: impl FnOnce(&mut Hooks<'_>) -> T + Send,
 ) -> PyResult<T> {
     let found = done(py, tell, |hooks| interruptible(hooks, work))?;
@@ -42,7 +43,7 @@ pub(crate) fn whole<T: Send>(
 /// An exception of `tell` or of a handler of signals, other than `KeyboardInterrupt`; a panic of the work.
 pub(crate) fn done<T: Send>(
     py: Python<'_>,
-    tell: Option<&Bound<'_, PyAny>>,
+    tell: Option<Tell<'_, '_>>,
     work: impl FnOnce(&mut Hooks<'_>) -> T + Send,
 ) -> PyResult<Done<T>> {
     let interrupt = AtomicBool::new(false);

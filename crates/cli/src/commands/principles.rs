@@ -1,11 +1,11 @@
 //! `chetaev principles`.
 
-use super::study::write_all;
+use super::study::{json, write_all, Written};
 use super::{error, options, refuse, with_hooks};
 use crate::arguments::Principles as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
-use chetaev::study::{beside, record, story, study, ClaimSelection, StudyError, StudyOptions};
+use chetaev::study::{beside, story, study, ClaimSelection, StudyError, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -21,25 +21,23 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
         let written = match arguments.compare {
-            true => write_all(&study, &folder, hooks).map(|_| ()),
-            false => Ok(()),
+            true => write_all(&study, &folder, hooks),
+            false => Ok(Written::default()),
         };
         Ok::<_, StudyError>((study, written))
     });
     let (study, written) = match result {
-        Ok(found) => found,
+        Ok((study, Ok(written))) => (study, written),
+        Ok((_, Err(problem))) => {
+            error(problem);
+            return INPUT;
+        }
         Err(problem) => {
             return refuse(&problem, &arguments.motion, &read);
         }
     };
-    if let Err(problem) = written {
-        error(problem);
-        return INPUT;
-    }
     if arguments.json {
-        let record = record::record(&study, &[]);
-        terminal::out(&serde_json::to_string_pretty(&record).unwrap_or_default());
-        terminal::out("\n");
+        terminal::out(&json(&study, &written));
         return study.outcome.exit_status();
     }
     let style = terminal::style();
@@ -49,8 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         story::outline(&study, style)
     });
     if arguments.compare {
-        let report = folder.join("report.html");
-        terminal::out(&format!("\nreport: {}\n", report.display()));
+        terminal::out(&format!("\nreport: {}\n", written.report(&folder)));
     }
     if !arguments.all {
         terminal::out("\neach principle with its formulas and evidence: --all\n");

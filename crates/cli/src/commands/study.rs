@@ -48,13 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         terminal::out(&json(&study, &written));
     } else {
         terminal::out(&told(arguments, &study));
-        let has_report = written.files.iter().any(|file| file.name == REPORT);
-        let report = if has_report {
-            folder.join(REPORT).display().to_string()
-        } else {
-            "not written, as the study was interrupted".to_owned()
-        };
-        terminal::out(&format!("\nreport: {report}\n"));
+        terminal::out(&format!("\nreport: {}\n", written.report(&folder)));
         if is_brief(arguments) {
             terminal::out(&format!(
                 "all {} claims with their evidence: --all; some of them: --show formulations\n",
@@ -108,7 +102,8 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     })
 }
 
-fn json(study: &Study, written: &Written) -> String {
+/// The record, with the files that were written beside it.
+pub(super) fn json(study: &Study, written: &Written) -> String {
     let mut record = record::record(study, &written.data);
     record.files.clone_from(&written.files);
     // Serialising plain data to a string does not fail; an empty text would be visible.
@@ -134,6 +129,15 @@ impl Written {
             sha256: files::checksum(content),
         });
         Ok(())
+    }
+
+    /// Where the page is, or why there is none.
+    pub(super) fn report(&self, folder: &Path) -> String {
+        if self.files.iter().any(|file| file.name == REPORT) {
+            folder.join(REPORT).display().to_string()
+        } else {
+            "not written, as the study was interrupted".to_owned()
+        }
     }
 }
 

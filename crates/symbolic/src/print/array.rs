@@ -2,6 +2,7 @@
 
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
+use super::sympy::KEYWORDS;
 use super::Options;
 use crate::graph::Graph;
 use crate::node::{Expr, Function, Symbol};
@@ -40,7 +41,7 @@ pub fn array_function(g: &Graph, function: &ArrayFunction, language: ArrayLangua
         ..Options::default()
     };
     let document = Document::expressions(g, &function.rates, &options);
-    let mut taken: BTreeSet<String> = RESERVED.iter().map(|&name| name.to_owned()).collect();
+    let mut taken = reserved();
     taken.insert(function.name.clone());
     let mut names = BTreeMap::new();
     for &symbol in function.state.iter().chain(&function.parameters) {
@@ -59,67 +60,23 @@ pub fn array_function(g: &Graph, function: &ArrayFunction, language: ArrayLangua
 /// Nodes for each entry from which parts get names.
 const SHARED: u64 = 40;
 
-/// Names that the functions use themselves, and words of the three languages.
-const RESERVED: [&str; 58] = [
-    "t",
-    "y",
-    "p",
-    "dy",
-    "np",
-    "pi",
-    "e",
-    "i",
-    "j",
-    "im",
-    "and",
-    "as",
-    "assert",
-    "async",
-    "await",
-    "begin",
-    "break",
-    "case",
-    "catch",
-    "class",
-    "const",
-    "continue",
-    "def",
-    "del",
-    "do",
-    "elif",
-    "else",
-    "elseif",
-    "end",
-    "except",
-    "export",
-    "false",
-    "finally",
-    "for",
-    "from",
-    "function",
-    "global",
-    "if",
-    "import",
-    "in",
-    "is",
-    "lambda",
-    "let",
-    "local",
-    "macro",
-    "module",
-    "nonlocal",
-    "not",
-    "or",
-    "otherwise",
-    "pass",
-    "quote",
-    "raise",
-    "return",
-    "struct",
-    "true",
-    "while",
-    "with",
+/// Words that MATLAB, Octave or Julia reserve, beside those of Python, and names that the functions use themselves.
+const RESERVED: [&str; 4] = [
+    "t y p dy np pi e i j im float hcat vcat NaN nothing",
+    // MATLAB, as `iskeyword` lists them.
+    "break case catch classdef continue else elseif end for function global if otherwise parfor persistent return spmd switch try while",
+    // Octave (GNU Octave, Reserved Words).
+    "do end_try_catch end_unwind_protect endfor endfunction endif endparfor endswitch endwhile until unwind_protect unwind_protect_cleanup",
+    // Julia (Essentials, Keywords).
+    "baremodule begin break catch const continue do else elseif end export false finally for function global if import in isa let local \
+     macro module quote return struct true try using where while",
 ];
+
+/// What no name of a model may be called.
+fn reserved() -> BTreeSet<String> {
+    let words = RESERVED.iter().flat_map(|own| own.split_whitespace());
+    words.chain(KEYWORDS).map(str::to_owned).collect()
+}
 
 fn free(name: &str, taken: &mut BTreeSet<String>) -> String {
     let clean = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

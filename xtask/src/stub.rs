@@ -1,0 +1,40 @@
+//! The stub of the native part of the Python package, read from the built library: what type checkers and editors know of it.
+
+use pyo3_introspection::{introspect_cdylib, module_stub_files};
+use std::path::Path;
+
+/// The module that is described.
+const MODULE: &str = "chetaev_native";
+/// What the file begins with.
+const HEAD: &str = "\
+# Generated from the native part by `cargo xtask python --stub`. What stands here is changed in crates/python.
+";
+
+/// The text of `chetaev_native.pyi`: classes and functions by their names, with their documentation.
+///
+/// # Errors
+/// What the library lacks.
+pub(crate) fn stub(library: &Path) -> Result<String, String> {
+    let described = introspect_cdylib(library, MODULE)
+        .map_err(|problem| format!("the library describes no module: {problem:#}"))?;
+    let mut files = module_stub_files(&described).into_values();
+    match (files.next(), files.next()) {
+        (Some(text), None) => Ok(format!("{HEAD}\n{text}")),
+        _ => Err("the native part is one module, and has a stub of one file".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// This program is no module of Python.
+    #[test]
+    fn a_library_that_describes_nothing_has_no_stub() {
+        let own = std::env::current_exe().unwrap();
+        let said = stub(&own).unwrap_err();
+        assert!(said.contains("No module named chetaev_native"), "{said}");
+        let said = stub(Path::new("no such library")).unwrap_err();
+        assert!(said.contains("describes no module"), "{said}");
+    }
+}
