@@ -73,6 +73,16 @@ impl Piece {
     }
 }
 
+/// The pieces that a place names.
+pub(crate) fn names_in(on: &str) -> Vec<&str> {
+    on.split(',').map(str::trim).collect()
+}
+
+/// The name of the place where pieces meet.
+pub(crate) fn place_of(names: &[&str]) -> String {
+    names.join(", ")
+}
+
 /// What a stated equation is for the functional.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -93,7 +103,7 @@ pub struct Equation {
     pub written: String,
     /// What it says.
     pub title: String,
-    /// The piece on which it holds, or two pieces with a comma where they meet; the interior where `None`.
+    /// The piece on which it holds, or those with commas, in the order of the boundary, where it holds at their meeting; the interior where `None`.
     pub on: Option<String>,
     /// Left minus right, all components.
     pub residuals: Vec<Expr>,
@@ -241,15 +251,24 @@ impl Functional {
         self.pieces.iter().find(|piece| piece.name == name)
     }
 
-    /// The two pieces that `a, b` names, where they meet.
-    pub fn meeting(&self, on: &str) -> Option<(&Piece, &Piece)> {
-        let (one, other) = on.split_once(',')?;
-        Some((self.piece(one.trim())?, self.piece(other.trim())?))
+    /// The pieces that `a, b` or `a, b, c` names, where they meet; `None` for one piece.
+    pub fn meeting(&self, on: &str) -> Option<Vec<&Piece>> {
+        let names = names_in(on);
+        if names.len() < 2 {
+            return None;
+        }
+        names.into_iter().map(|name| self.piece(name)).collect()
     }
 
     /// Equations with a role.
     pub fn with_role(&self, role: Role) -> impl Iterator<Item = &Equation> {
         self.equations.iter().filter(move |e| e.role == role)
+    }
+
+    /// What is imposed without a multiplier, and restricts the variations of fields.
+    pub fn restricting(&self) -> impl Iterator<Item = &Equation> {
+        let imposed = self.with_role(Role::Imposed);
+        imposed.filter(|e| e.multiplier.is_none() && !self.space.vanish(&e.residuals))
     }
 
     /// Puts values in for symbols in all densities, equations and multipliers.

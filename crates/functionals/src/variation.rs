@@ -5,7 +5,7 @@
 //! theorem on the surface, ∫ q·∇δu = ∫ (n·q) ∂δu/∂n − ∫ (Π:∇q − (n·q) div n) δu, where Π projects on the tangent plane, which
 //! brings in the curvature and leaves terms at the edges of the piece. What comes out are the coefficients of independent variations.
 
-use crate::functional::{Functional, Piece, Side};
+use crate::functional::{place_of, Functional, Piece, Side};
 use crate::space::{Jet, Multi, Space};
 use chetaev_symbolic::Expr;
 use std::collections::{BTreeMap, BTreeSet};
@@ -87,6 +87,13 @@ pub struct Corner {
     pub component: usize,
     /// The coefficient of its variation.
     pub value: Expr,
+}
+
+impl Corner {
+    /// The name of the place, as an equation has it.
+    pub fn place(&self) -> String {
+        place_of(&[&self.pieces.0, &self.pieces.1])
+    }
 }
 
 /// The first variation.

@@ -203,12 +203,31 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
                     piece.name
                 );
                 let verdict = not_cancelled(space, flux, sum, *verdict);
+                let verdict = match verdict {
+                    Verdict::Refuted(_) if flux::leaves_edges_only(space, &piece.side, sum) => {
+                        Verdict::undecided("their sum is a divergence along it, and what that leaves where faces meet was not compared")
+                    }
+                    other => other,
+                };
                 return verdict.prefixed(&what).into();
             }
         }
     }
-    let verdict = match all {
-        Verdict::Proved(proof) => Verdict::Proved(Proof {
+    let at_ends = at_ends_of_time(functional, flux, &imposed);
+    let verdict = match (all, at_ends) {
+        (Verdict::Proved(proof), Some(condition)) => Verdict::Conditional {
+            condition,
+            proof: Proof {
+                on: "all fields".into(),
+                detail: format!(
+                    "the densities of {} and {} add up to the divergence of {written}, and the functionals to what its last component is at the last time less that at the first",
+                    functional.name, other.name
+                ),
+                ..proof
+            },
+            counterexample: None,
+        },
+        (Verdict::Proved(proof), None) => Verdict::Proved(Proof {
             on: if notes.is_empty() {
                 "all fields".into()
             } else {
@@ -229,9 +248,24 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
             },
             ..proof
         }),
-        other => other,
+        (other, _) => other,
     };
     Finding { verdict, formulas }
+}
+
+/// What must hold at the first and at the last time: the boundary has no pieces there.
+fn at_ends_of_time(functional: &Functional, flux: &Flux, imposed: &[Group]) -> Option<String> {
+    let space = &*functional.space;
+    let axis = space.coordinates.iter().position(|c| c.is_time)?;
+    let through = *flux.components.get(axis)?;
+    let vanishes =
+        matches!(vanishing(functional, &[through], imposed), Ok((_, needed)) if needed.is_empty());
+    (!vanishes).then(|| {
+        format!(
+            "the integral of {} over the body is the same at both ends of the time",
+            space.graph.text(through)
+        )
+    })
 }
 
 /// A proof that a sum vanishes on a piece: with equations of the interior, or with what is imposed there; else as a product of what

@@ -5,9 +5,11 @@
 //! The integral is a sum over five places, exact for polynomials up to the fifth degree (G. Boole 1860); whether it is right is
 //! decided by the divergence itself.
 
+use crate::functional::Side;
 use crate::polynomial::Polynomial;
-use crate::space::Space;
+use crate::space::{Jet, Space};
 use chetaev_symbolic::{rational, Expr};
+use std::collections::BTreeSet;
 
 /// Boole's rule: places and weights, in quarters and in ninetieths.
 const BOOLE: [(i64, i64); 5] = [(0, 7), (1, 32), (2, 12), (3, 32), (4, 7)];
@@ -33,6 +35,33 @@ pub(super) fn of(space: &Space, density: Expr) -> Option<Vec<Expr>> {
     let divergence: Vec<Expr> = slopes.map(|(axis, &w)| space.total(w, axis)).collect();
     let difference = g.sub(density, g.add(&divergence));
     space.vanish(&[difference]).then_some(found)
+}
+
+/// Whether a density on a face is a divergence along it, so that its integral is one over the edges: what it says of every field and of each
+/// derivative of one across the face has no Euler expression. On a curved piece that is so wherever derivatives occur, as far as is known here.
+pub(super) fn leaves_edges_only(space: &Space, side: &Side, density: Expr) -> bool {
+    let jets = space.jets_in(&[density]);
+    let Side::Flat { axis, .. } = side else {
+        return jets.iter().any(|jet| !jet.by.is_empty());
+    };
+    let (is_across, g) = (|by: &&usize| *by == axis, &space.graph);
+    let across = |jet: &Jet| (jet.component, jet.by.iter().filter(is_across).count());
+    let fields: BTreeSet<(usize, usize)> = jets.iter().map(across).collect();
+    let has_derivatives = |jet: &Jet| jet.by.iter().any(|by| by != axis);
+    let euler = fields.iter().map(|&field| {
+        let own = jets.iter().filter(|jet| across(jet) == field);
+        let terms = own.map(|jet| {
+            let along: Vec<usize> = jet.by.iter().copied().filter(|by| by != axis).collect();
+            let term = space.totals(space.partial(density, jet), &along);
+            if along.len().is_multiple_of(2) {
+                term
+            } else {
+                g.neg(term)
+            }
+        });
+        g.add(&terms.collect::<Vec<_>>())
+    });
+    jets.iter().any(has_derivatives) && space.vanish(&euler.collect::<Vec<_>>())
 }
 
 /// All jets times a factor.

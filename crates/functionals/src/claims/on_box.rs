@@ -2,7 +2,7 @@
 //!
 //! The faces have edges and corners, with conditions of their own, which a piece without a shape has not.
 
-use crate::functional::{Equation, Field, Functional, Piece, Side, Solution};
+use crate::functional::{names_in, place_of, Equation, Field, Functional, Piece, Side, Solution};
 use crate::read::on_side;
 use crate::space::Space;
 use crate::tensors::Scope;
@@ -93,28 +93,32 @@ fn pieces_of(functional: &Functional, own: &Piece, faces: &[Face]) -> Vec<Piece>
     of_piece(faces, &own.name).map(on).collect()
 }
 
-/// An equation on a piece holds on all its faces, one on two pieces wherever two of their faces meet.
+/// An equation on a piece holds on all its faces, one on several pieces wherever faces of all of them meet.
 fn equations_of(functional: &Functional, own: &Equation, faces: &[Face]) -> Vec<Equation> {
     let scope = &functional.scope;
     let Some(on) = &own.on else {
         return vec![own.clone()];
     };
-    let at = |face: &Face| Equation {
-        on: Some(face.name.clone()),
-        ..equation_on(scope, own, &face.side)
-    };
-    let where_meeting = |(one, other): (&Face, &Face)| Equation {
-        on: Some(format!("{}, {}", one.name, other.name)),
-        ..equation_on(scope, &equation_on(scope, own, &one.side), &other.side)
-    };
-    match on.split_once(',') {
-        None => of_piece(faces, on).map(at).collect(),
-        Some((one, other)) => of_piece(faces, one.trim())
-            .flat_map(|a| of_piece(faces, other.trim()).map(move |b| (a, b)))
-            .filter(|(a, b)| a.side.meets(&b.side))
-            .map(where_meeting)
-            .collect(),
+    let mut places: Vec<Vec<&Face>> = vec![Vec::new()];
+    for name in names_in(on) {
+        let mut longer = Vec::new();
+        for place in &places {
+            let meets = |face: &&Face| place.iter().all(|own| own.side.meets(&face.side));
+            let own = of_piece(faces, name).filter(meets);
+            longer.extend(own.map(|face| [place.as_slice(), &[face]].concat()));
+        }
+        places = longer;
     }
+    let at = |place: Vec<&Face>| {
+        let names: Vec<&str> = place.iter().map(|face| face.name.as_str()).collect();
+        let restricted =
+            |equation: Equation, face: &&Face| equation_on(scope, &equation, &face.side);
+        Equation {
+            on: Some(place_of(&names)),
+            ..place.iter().fold(own.clone(), restricted)
+        }
+    };
+    places.into_iter().map(at).collect()
 }
 
 fn fields_of(own: &Field, faces: &[Face]) -> Vec<Field> {

@@ -19,11 +19,6 @@ pub(super) fn reduced(functional: &Functional) -> Functional {
     own
 }
 
-fn restricting(functional: &Functional) -> impl Iterator<Item = &Equation> {
-    let imposed = functional.with_role(Role::Imposed);
-    imposed.filter(|e| e.multiplier.is_none() && !functional.space.vanish(&e.residuals))
-}
-
 /// The components that are varied in the interior.
 fn varied(functional: &Functional) -> Vec<usize> {
     let fields = functional.interior();
@@ -35,7 +30,7 @@ fn solved(functional: &Functional) -> Option<(usize, Expr)> {
     let space = &*functional.space;
     let g = &space.graph;
     let varied = varied(functional);
-    let inside = restricting(functional).filter(|e| e.on.is_none());
+    let inside = functional.restricting().filter(|e| e.on.is_none());
     let mut residuals = inside.flat_map(|e| e.residuals.iter().copied());
     residuals.find_map(|e| {
         let jets = space.jets_in(&[e]);
@@ -96,7 +91,7 @@ fn given(functional: &mut Functional) {
     let space = functional.space.clone();
     let varied = varied(functional);
     let mut found: Vec<(String, usize)> = Vec::new();
-    for equation in restricting(functional) {
+    for equation in functional.restricting() {
         let Some(on) = &equation.on else { continue };
         for &e in &equation.residuals {
             let jets = space.jets_in(&[e]);
@@ -140,7 +135,9 @@ pub(super) fn restricted(functional: &Functional, variation: &Variation) -> Opti
         let jets = space.jets_in(&e.residuals);
         jets.into_iter().map(|jet| jet.component).collect()
     };
-    let mut open = restricting(functional).filter(|equation| !is_of_given(functional, equation));
+    let mut open = functional
+        .restricting()
+        .filter(|equation| !is_of_given(functional, equation));
     open.find_map(|equation| {
         let own = components(equation);
         let values: Vec<Expr> = match &equation.on {

@@ -60,10 +60,25 @@ impl Claim for Ritz {
         let Some(last) = all.last() else {
             return Verdict::undecided("no degree is asked for").into();
         };
+        let found = with_fields(cx.functional(), asked, last);
+        if let Some(unfit) = unfit(cx.functional(), &[found], &cx.functional().intervals) {
+            return unfit.into();
+        }
         let verdict = verdict(cx.functional(), variation, asked, &all, last);
         let formulas = formulas(cx.functional(), last);
         cx.approximations.replace(all);
         Finding { verdict, formulas }
+    }
+}
+
+/// The values that are asked for and the fields that were found.
+fn with_fields(functional: &Functional, asked: &Asked, last: &Approximation) -> Special {
+    let space = &*functional.space;
+    let fields = last.fields.iter();
+    let fields = fields.map(|(c, polynomial)| (space.jet(*c, &[]), polynomial.expr(space)));
+    Special {
+        written: String::new(),
+        what: SpecialKind::Symbols(asked.values.iter().copied().chain(fields).collect()),
     }
 }
 

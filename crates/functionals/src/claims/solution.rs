@@ -4,7 +4,7 @@ use super::on_box::on_box;
 use super::reduction::{reduced, restricted};
 use super::special_values::{put_in, unfit, where_settled};
 use super::{Claim, Context, Finding};
-use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
+use crate::functional::{names_in, Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
 use crate::read::on_side;
 use crate::smoothness::{guards, Guard, Region};
@@ -278,9 +278,8 @@ impl<'f> Inserted<'f> {
         let imposed = self.functional.with_role(Role::Imposed);
         let imposed = imposed.filter_map(|e| e.on.clone());
         let imposed = imposed.flat_map(|on| {
-            on.split(',')
-                .map(|name| name.trim().to_owned())
-                .collect::<Vec<_>>()
+            let names = names_in(&on).into_iter();
+            names.map(str::to_owned).collect::<Vec<_>>()
         });
         let free = variation
             .pieces
@@ -290,28 +289,30 @@ impl<'f> Inserted<'f> {
         all.find(|name| !is_placed(name))
     }
 
-    /// An expression wherever a face of one piece meets one of another.
-    fn meeting(&self, (one, other): (&str, &str), e: Expr) -> Vec<Expr> {
+    /// An expression wherever faces of all these pieces meet.
+    fn meeting(&self, names: &[&str], e: Expr) -> Vec<Expr> {
         let space = &*self.functional.space;
-        let axis_of = |side: &Side| match side {
-            Side::Flat { axis, at, .. } => Some((*axis, *at)),
-            Side::Curved => None,
-        };
-        let mut found = Vec::new();
-        for (side, second) in self
-            .sides(one)
-            .flat_map(|side| self.sides(other).map(move |second| (side, second)))
-        {
-            let (Some((axis, _)), Some((across, at))) = (axis_of(side), axis_of(second)) else {
-                continue;
-            };
-            let place = space.coordinates.get(across).map(|c| c.expr);
-            let own = self.on_face(side, e);
-            if let (Some(own), Some(place), true) = (own, place, axis != across) {
-                found.push(space.graph.substitute(own, &[(place, at)]));
+        let mut places: Vec<Vec<&Side>> = vec![Vec::new()];
+        for name in names {
+            let mut longer = Vec::new();
+            for place in &places {
+                let meets = |side: &&Side| place.iter().all(|own| own.meets(side));
+                let own = self.sides(name).filter(meets);
+                longer.extend(own.map(|side| [place.as_slice(), &[side]].concat()));
             }
+            places = longer;
         }
-        found
+        let at = |place: Vec<&Side>| {
+            let (first, others) = place.split_first()?;
+            let own = self.on_face(first, e)?;
+            let value = |side: &&Side| match side {
+                Side::Flat { axis, at, .. } => Some((space.coordinates.get(*axis)?.expr, *at)),
+                Side::Curved => None,
+            };
+            let values: Option<Vec<(Expr, Expr)>> = others.iter().map(value).collect();
+            Some(space.graph.substitute(own, &values?))
+        };
+        places.into_iter().filter_map(at).collect()
     }
 
     /// What must vanish.
@@ -323,9 +324,9 @@ impl<'f> Inserted<'f> {
             for &e in &equation.residuals {
                 let own = match &equation.on {
                     None => vec![self.at(e)],
-                    Some(on) => match on.split_once(',') {
-                        Some((one, other)) => self.meeting((one.trim(), other.trim()), e),
-                        None => self.on(on, e),
+                    Some(on) => match names_in(on)[..] {
+                        [_] => self.on(on, e),
+                        ref names => self.meeting(names, e),
                     },
                 };
                 found.extend(own.into_iter().map(|e| (what.clone(), e)));
@@ -347,7 +348,7 @@ impl<'f> Inserted<'f> {
             let (one, other) = (corner.pieces.0.as_str(), corner.pieces.1.as_str());
             let name = space.component_at(corner.component).name;
             let what = format!("the condition of {name} where {one} and {other} meet");
-            let own = self.meeting((one, other), corner.value).into_iter();
+            let own = self.meeting(&[one, other], corner.value).into_iter();
             found.extend(own.map(|e| (what.clone(), e)));
         }
         found

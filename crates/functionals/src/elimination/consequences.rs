@@ -161,8 +161,13 @@ impl<'s> Solved<'s> {
                 open.push((case, depth + 1));
             }
         }
-        found.retain(|case| case.contradiction_as_solved().is_none() && !case.is_excluded());
+        found.retain(|case| !case.is_impossible());
         Some(found)
+    }
+
+    /// Whether nothing is seen to satisfy the equations and what is assumed.
+    pub(super) fn is_impossible(&self) -> bool {
+        self.contradiction_as_solved().is_some() || self.is_excluded()
     }
 
     /// Whether something that is assumed is false wherever the equations hold.

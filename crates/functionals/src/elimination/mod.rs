@@ -23,6 +23,7 @@
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
 mod consequences;
+mod rank;
 mod ranking;
 mod solver;
 mod strata;
@@ -44,6 +45,9 @@ use std::rc::Rc;
 /// Seconds of work for conditions of integrability that raise the order: they decide whether something is refuted, and products of many
 /// derivatives have so many that the rest of a study would wait for them.
 const PROLONGING: f64 = 3.0;
+
+/// Cases in which something vanishes that was divided by are followed so far into each other.
+const MOST_SINGULAR: usize = 3;
 
 /// Equations that belong together: the components of one.
 #[derive(Clone, Debug)]
@@ -108,6 +112,8 @@ pub struct Solved<'s> {
     is_circular: Cell<bool>,
     /// Whether expressions vanish where others do.
     together: RefCell<BTreeMap<(Expr, Expr), bool>>,
+    /// Whether matrices have independent columns everywhere.
+    ranks: RefCell<BTreeMap<Vec<Vec<Expr>>, bool>>,
     /// The factors of equations.
     factors: RefCell<BTreeMap<Expr, Vec<Expr>>>,
     /// Factors that vanish in the case at hand.
@@ -131,12 +137,28 @@ pub struct Pivot {
     pub tensor: String,
     /// What its entries depend on.
     pub entries: Entries,
+    /// What must not vanish so that it is regular, where that is short.
+    pub divisor: Option<String>,
+}
+
+impl Pivot {
+    /// `, where v^2 + w^2 ≠ 0`.
+    pub fn said(&self) -> String {
+        match (&self.divisor, self.entries) {
+            (Some(divisor), _) => format!(", where {divisor} ≠ 0"),
+            (None, Entries::Parameters) => format!(", where the matrix of the coefficients of {}, in which parameters stand, is regular", self.tensor),
+            (None, Entries::Functions) => format!(", where the coefficients of {}, in which functions of fields occur, are regular", self.tensor),
+            (None, _) => format!(", where the coefficients of {}, in which fields occur, are regular", self.tensor),
+        }
+    }
 }
 
 /// On what the entries of a matrix depend: the first of these that occurs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Entries {
-    /// Fields, data, or functions of them.
+    /// Functions of fields or data of which no formula is known.
+    Functions,
+    /// Fields or data; where they vanish that is a case of its own.
     Fields,
     /// The normal.
     Normal,
@@ -161,12 +183,16 @@ struct Adopted {
     first_rule: usize,
     equations: Open,
     divisor: Option<Expr>,
+    /// Factors of it whose zeros are cases of their own.
+    singular: Vec<Expr>,
+    /// What was solved for.
+    tensor: String,
 }
 
 /// At so many points a factor between two equations is looked for.
 const MOST_POINTS: usize = 4;
 
-/// An equation that is left is printed up to so many signs.
+/// An equation that is left, and what was divided by, is printed up to so many signs.
 const LONGEST_NAMED: usize = 60;
 
 /// Most rounds; each solves one group or changes its form.
@@ -196,6 +222,7 @@ impl<'s> Solved<'s> {
             ranking: Some(Ranking::by_order(space)),
             is_circular: Cell::new(false),
             together: RefCell::default(),
+            ranks: RefCell::default(),
             factors: RefCell::default(),
             case: Vec::new(),
             left: Vec::new(),
@@ -421,14 +448,26 @@ impl<'s> Solved<'s> {
         None
     }
 
-    /// Whether expressions vanish where the equations hold: in each case where an equation that is left is a product.
-    pub fn follows(&self, es: &[Expr]) -> bool {
-        let is_so = |own: &Solved<'_>| es.iter().all(|&e| own.space.vanishes(own.here(e)));
-        is_so(self) || self.cases().is_some_and(|all| all.iter().all(is_so))
+    /// The verdict on an expression where the equations hold, with a counterexample where one is found. Of equations that could not be solved no
+    /// counterexample is sought.
+    pub fn verdict(&self, e: Expr) -> Verdict {
+        let mut proof = match self.verdict_in_general(e) {
+            Verdict::Proved(proof) => proof,
+            other => return other,
+        };
+        match self.where_singular(&[e]) {
+            Err(found) => Verdict::Refuted(*found),
+            Ok(open) => {
+                for own in open.iter().map(Pivot::said) {
+                    proof.on.push_str(&own);
+                    proof.detail.push_str(&own);
+                }
+                Verdict::Proved(proof)
+            }
+        }
     }
 
-    /// The same as a verdict, with a counterexample where one is found. Of equations that could not be solved no counterexample is sought.
-    pub fn verdict(&self, e: Expr) -> Verdict {
+    fn verdict_in_general(&self, e: Expr) -> Verdict {
         let whole = self.verdict_as_solved(e);
         if matches!(whole, Verdict::Proved(_)) {
             return whole;
@@ -466,7 +505,8 @@ impl<'s> Solved<'s> {
     /// Whether fields or data, or functions of them, occur in what was divided by.
     pub fn is_divided_by_jets(&self) -> bool {
         let has_jets = |e: &Expr| !self.space.jets_in(&[*e]).is_empty();
-        let of_fields = |pivot: &Pivot| pivot.entries == Entries::Fields;
+        let of_fields =
+            |pivot: &Pivot| matches!(pivot.entries, Entries::Fields | Entries::Functions);
         self.divisors.iter().any(has_jets) || self.pivots.iter().any(of_fields)
     }
 
@@ -512,7 +552,9 @@ impl<'s> Solved<'s> {
             format!("`{}`", group.label)
         };
         match texts.collect::<Vec<_>>().as_slice() {
-            [text] if text.len() <= LONGEST_NAMED => format!("{label}, that is {text} = 0,"),
+            [text] if text.len() <= LONGEST_NAMED => {
+                format!("{label}, of which {text} = 0 is left,")
+            }
             _ => label,
         }
     }

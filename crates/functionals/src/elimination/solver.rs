@@ -18,6 +18,8 @@ struct Choice {
     rows: Vec<usize>,
     matrix: Vec<Vec<Expr>>,
     rest: Vec<Expr>,
+    /// Whether its columns are independent everywhere.
+    is_regular: bool,
 }
 
 /// A group of equations in which the gradient of a function was undone by its conjugate.
@@ -308,10 +310,9 @@ impl Solved<'_> {
             .iter()
             .map(|&r| space.replace(equations[r], &zero))
             .collect();
-        let matrix: Vec<Vec<Expr>> = rows
-            .iter()
-            .map(|&r| columns.iter().map(|&c| matrix[r][c]).collect())
-            .collect();
+        let all = matrix;
+        let own: Vec<Vec<Expr>> = rows.iter().map(|&r| all[r].clone()).collect();
+        let matrix = columns_of(&own, &columns);
         let are_numbers = matrix.iter().flatten().all(|&e| g.as_number(e).is_some());
         let effort = if are_numbers {
             0
@@ -328,6 +329,10 @@ impl Solved<'_> {
         if cost >= least {
             return None;
         }
+        let is_regular = is_constant || self.has_full_rank(&columns_of(&all, &columns));
+        if !is_regular && chosen.len() > LARGEST_DETERMINANT {
+            return None;
+        }
         Some(Choice {
             cost,
             group,
@@ -335,6 +340,7 @@ impl Solved<'_> {
             rows,
             matrix,
             rest,
+            is_regular,
         })
     }
 
@@ -360,7 +366,7 @@ impl Solved<'_> {
     }
 
     /// Whether coefficients are free of the normal too, whose components may vanish.
-    fn is_free(&self, row: &[Expr]) -> bool {
+    pub(super) fn is_free(&self, row: &[Expr]) -> bool {
         let g = &self.space.graph;
         let symbols = self.space.symbols_in(row);
         symbols.iter().all(|&s| !self.space.is_of_surface(s))
@@ -458,6 +464,10 @@ impl Solved<'_> {
             let tensor = self.space.component_at(jet.component).tensor;
             self.note_divisors(&choice.matrix, &tensor);
         }
+        let divisor = (choice.matrix.len() <= LARGEST_DETERMINANT)
+            .then(|| determinant(&self.space.graph, &choice.matrix));
+        let of = |jet: &Jet| self.space.component_at(jet.component).tensor;
+        let tensor = choice.jets.first().map(of).unwrap_or_default();
         let group = &self.left[choice.group];
         let stratum = group.stratum;
         self.adopted.push(Adopted {
@@ -471,8 +481,12 @@ impl Solved<'_> {
                     .collect(),
                 stratum,
             },
-            divisor: (choice.matrix.len() <= LARGEST_DETERMINANT)
-                .then(|| determinant(&self.space.graph, &choice.matrix)),
+            singular: match divisor {
+                Some(divisor) if !choice.is_regular => self.singular_factors(divisor),
+                _ => Vec::new(),
+            },
+            tensor,
+            divisor,
         });
         for (jet, value) in choice.jets.into_iter().zip(values) {
             let across = self.across(&jet, stratum);
@@ -507,20 +521,25 @@ impl Solved<'_> {
             let Some(at) = self.adopted.iter().position(has_vanished) else {
                 return;
             };
-            let taken = self.adopted.split_off(at);
-            let first = taken.first().map_or(self.rules.len(), |own| own.first_rule);
-            self.rules.truncate(first);
-            for mut own in taken.into_iter().rev().map(|own| own.equations) {
-                own.stratum = self.narrowed(own.stratum, self.everywhere());
-                self.left.push(own);
-            }
-            self.crossed.clear();
-            self.known.borrow_mut().clear();
-            self.ranking = Some(Ranking::by_order(self.space));
-            self.ranking = self.ranking_with(Vec::new());
+            self.take_back_from(at);
             self.solve();
         }
         self.give_up();
+    }
+
+    /// Takes back the rules that were found at some step and later.
+    pub(super) fn take_back_from(&mut self, at: usize) {
+        let taken = self.adopted.split_off(at);
+        let first = taken.first().map_or(self.rules.len(), |own| own.first_rule);
+        self.rules.truncate(first);
+        for mut own in taken.into_iter().rev().map(|own| own.equations) {
+            own.stratum = self.narrowed(own.stratum, self.everywhere());
+            self.left.push(own);
+        }
+        self.crossed.clear();
+        self.known.borrow_mut().clear();
+        self.ranking = Some(Ranking::by_order(self.space));
+        self.ranking = self.ranking_with(Vec::new());
     }
 
     /// Forgets all equations: where rules are found again and again by dividing by what vanishes, as one makes the divisor of another zero,
@@ -569,7 +588,8 @@ impl Solved<'_> {
                 }
                 let full = self
                     .pivots_of(&matrix)
-                    .is_some_and(|p| p.rows.len() == gradient.len());
+                    .is_some_and(|p| p.rows.len() == gradient.len())
+                    && self.has_full_rank(&matrix);
                 let rows: Vec<usize> = (0..group.equations.len()).collect();
                 let divides_product = self.has_fields(&matrix.concat())
                     && self.meets_product(&group.equations, &rows);
@@ -611,7 +631,9 @@ impl Solved<'_> {
         if divisor.is_some_and(|e| self.space.sign(e).is_nonzero()) {
             return;
         }
-        let entries = if self.has_fields(&matrix.concat()) {
+        let entries = if self.has_functions(&matrix.concat()) {
+            Entries::Functions
+        } else if self.has_fields(&matrix.concat()) {
             Entries::Fields
         } else if matrix.iter().all(|row| self.is_free(row)) {
             return self.note_nonzero(&matrix, tensor);
@@ -622,7 +644,11 @@ impl Solved<'_> {
             self.note_parameters(divisor);
         }
         let tensor = tensor.to_owned();
-        self.note_pivot(Pivot { tensor, entries });
+        self.note_pivot(Pivot {
+            tensor,
+            entries,
+            divisor: None,
+        });
     }
 
     /// The factors without fields and the normal of what was divided by.
@@ -645,7 +671,7 @@ impl Solved<'_> {
     }
 
     /// Whether fields, data or functions of them occur; the curvature is none.
-    fn has_fields(&self, es: &[Expr]) -> bool {
+    pub(super) fn has_fields(&self, es: &[Expr]) -> bool {
         let space = self.space;
         let mut jets = space.jets_in(es).into_iter();
         let symbols = space.graph.symbols_in(es);
@@ -673,6 +699,7 @@ impl Solved<'_> {
             self.note_pivot(Pivot {
                 tensor: tensor.to_owned(),
                 entries: Entries::Parameters,
+                divisor: None,
             });
             return;
         };
@@ -689,6 +716,12 @@ impl Solved<'_> {
             }
         }
     }
+}
+
+/// Columns of a matrix.
+fn columns_of(matrix: &[Vec<Expr>], columns: &[usize]) -> Vec<Vec<Expr>> {
+    let of = |row: &Vec<Expr>| columns.iter().map(|&c| row[c]).collect();
+    matrix.iter().map(of).collect()
 }
 
 /// What a positive power is of: both vanish together.

@@ -2,7 +2,9 @@
 
 use super::living::Living;
 use super::Reader;
-use crate::functional::{Definition, Equation, Field, Functional, Interval, Piece, Role, Side};
+use crate::functional::{
+    names_in, place_of, Definition, Equation, Field, Functional, Interval, Piece, Role, Side,
+};
 use crate::notation::{free_letters, parse, parse_sides};
 use crate::space::pairs;
 use crate::tensors::{tuples, Scope, Tensor};
@@ -573,30 +575,65 @@ impl Reader<'_> {
             }
         }
         let (residuals, letters) = self.residuals(scope, &text)?;
-        let mut residuals = residuals;
-        for name in on.iter().flat_map(|on| on.content.split(',')) {
-            let Some(piece) = pieces.iter().find(|p| p.name == name.trim()) else {
-                let place = on.as_ref().map_or(text.place, |on| on.place);
-                let message = format!("`{}` is not a piece of the boundary", name.trim());
-                self.push(Diagnostic::error("unknown-piece", place, message));
-                return None;
-            };
-            residuals = residuals
-                .iter()
-                .map(|&e| on_side(scope, &piece.side, e))
-                .collect();
-        }
+        let here = match &on {
+            Some(on) => self.meeting(scope, pieces, on)?,
+            None => Vec::new(),
+        };
+        let on_all = |e: Expr| here.iter().fold(e, |e, own| on_side(scope, &own.side, e));
+        let residuals = residuals.into_iter().map(on_all).collect();
+        let names: Vec<&str> = here.iter().map(|own| own.name.as_str()).collect();
         let multiplier = self.multiplier(table, scope, &key.content, &letters);
         Some(Equation {
             label: key.content.clone(),
             written: text.content.clone(),
             title: title.map_or(String::new(), |text| text.content),
-            on: on.map(|text| text.content),
+            on: on.map(|_| place_of(&names)),
             residuals,
             role,
             multiplier,
             place: text.place,
         })
+    }
+
+    /// The piece that `on` names, or several that meet, in the order in which the boundary has them.
+    fn meeting<'p>(
+        &mut self,
+        scope: &Scope,
+        pieces: &'p [Piece],
+        on: &Text,
+    ) -> Option<Vec<&'p Piece>> {
+        let names = names_in(&on.content);
+        if let Some(name) = names
+            .iter()
+            .find(|name| !pieces.iter().any(|own| own.name == **name))
+        {
+            let message = format!("`{name}` is not a piece of the boundary");
+            self.push(Diagnostic::error("unknown-piece", on.place, message));
+            return None;
+        }
+        let here: Vec<&Piece> = pieces
+            .iter()
+            .filter(|own| names.contains(&own.name.as_str()))
+            .collect();
+        let is_flat = |own: &Piece| matches!(own.side, Side::Flat { .. });
+        let mut pairs = here
+            .iter()
+            .enumerate()
+            .flat_map(|(at, one)| here[at + 1..].iter().map(move |other| (one, other)));
+        let apart = pairs.find(|(one, other)| is_flat(one) && is_flat(other) && !one.meets(other));
+        let dimensions = scope.space.dimensions();
+        let message = match apart {
+            _ if here.len() < names.len() => "a piece is named twice".to_owned(),
+            Some((one, other)) => format!("`{}` and `{}` do not meet", one.name, other.name),
+            None if here.len() > dimensions => format!(
+                "{} pieces do not meet in {dimensions} dimensions",
+                here.len()
+            ),
+            None => return Some(here),
+        };
+        let hint = "an equation that holds on several pieces is stated on each of them; with commas it holds where they meet only";
+        self.push(Diagnostic::error("no-meeting", on.place, message).hint(hint));
+        None
     }
 
     fn multiplier(

@@ -182,3 +182,21 @@ fn values_that_violate_an_assumption_are_none_of_the_model() {
         judged(&text, "functional.second-variation", is_fit);
     }
 }
+
+/// With q = −2 Ritz's method finds u = x² − x, which is negative inside of the interval, and with q = 2 the positive one.
+#[test]
+fn what_is_found_by_ritz_is_as_assumed() {
+    let word = |load: &str| {
+        let held = "{ fixed = [\"u\"] }";
+        let text = format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 - q u\"\nassumptions = [\"u > 0\"]\n[domain]\ncoordinates = [\"x\"]\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\n\"x = 0\" = {held}\n\
+             \"x = 1\" = {held}\n[ritz]\ndegrees = [1, 2]\nvalues = {{ q = \"{load}\" }}\n"
+        );
+        decided(&studied_text("p4p", &text, &[]), "functional.ritz")
+            .word()
+            .to_owned()
+    };
+    assert_eq!(word("-2"), "not-applicable");
+    assert_eq!(word("2"), "proved");
+}

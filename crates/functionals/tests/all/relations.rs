@@ -303,3 +303,51 @@ fn boundary_terms_are_compared_without_a_stated_flux() {
     let (word, detail) = dual("u,x cos(u)", "0 u", [FREE, FREE]);
     assert_ne!(word, "proved", "{detail}");
 }
+
+/// Boundary densities of which the sum is a divergence along a face leave something at its ends only: (y (1 − y) u),y on x = 0 has the integral
+/// zero, so that the functionals do add up to zero, while y u on x = 0 has not.
+#[test]
+fn divergences_along_a_face_are_not_refuted() {
+    let dual = |end: &str| {
+        let of = |name: &str, density: &str, end: &str, more: &str| {
+            format!(
+                "kind = \"functional\"\nname = \"{name}\"\ndensity = \"{density}\"\n[domain]\ncoordinates = [\"x\", \"y\"]\n\
+                 intervals = {{ x = [0, 1], y = [0, 1] }}\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = \"{end}\"\n\
+                 \"x = 1\" = \"0\"\n\"y = 0\" = \"0\"\n\"y = 1\" = \"0\"\n{more}"
+            )
+        };
+        let own = of(
+            "own",
+            "u",
+            end,
+            "[duality]\nwith = \"other.toml\"\nflux = \"0 u,i\"\n",
+        );
+        let study = studied(&own, &of("other", "-u", "0", ""));
+        let own = decided(&study, "functional.duality");
+        (own.word(), own.detail().to_owned())
+    };
+    let (word, detail) = dual("y (1 - y) u,y + (1 - 2 y) u");
+    assert_ne!(word, "refuted", "{detail}");
+    for end in ["y u", "y (1 - y) u,y", "u,x", "u,y^2"] {
+        let (word, detail) = dual(end);
+        assert_eq!(word, "refuted", "{end}: {detail}");
+    }
+}
+
+/// The boundary has no pieces at the ends of the time: ∫∫ u u,t is the integral of u²/2 at the last time less that at the first.
+#[test]
+fn what_goes_through_the_ends_of_the_time_is_a_condition() {
+    let of = |name: &str, density: &str, more: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"{name}\"\ndensity = \"{density}\"\n[domain]\ncoordinates = [\"x\"]\ntime = \"t\"\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n{more}"
+        )
+    };
+    let dual = |density: &str, other: &str| {
+        let own = of("own", density, "[duality]\nwith = \"other.toml\"\n");
+        let study = studied(&own, &of("other", other, ""));
+        decided(&study, "functional.duality").word().to_owned()
+    };
+    assert_eq!(dual("u u,t", "0 u"), "conditional");
+    assert_eq!(dual("u u,t", "-u u,t"), "proved");
+}

@@ -1,7 +1,8 @@
 //! Where faces meet: what conditions of two faces say together holds there, and not along either of them; and conditions there count where
 //! something is said not to follow.
 
-use crate::table::{decided, studied_text};
+use crate::table::{decided, read_text, studied_text};
+use chetaev_model::Style;
 
 /// Scalars on a box, `on: equation` on a face or where two meet.
 struct Model<'a> {
@@ -248,4 +249,72 @@ fn a_condition_at_a_corner_counts_elsewhere() {
     }
     .euler();
     assert_eq!(word, "refuted", "{detail}");
+}
+
+/// Where three faces meet two values exclude each other, a value that is imposed there makes another false, and a slope need not vanish: v = 5 + 2 x
+/// + 3 y + 4 z without load has the value 5 and the slope 2 there.
+#[test]
+fn conditions_where_three_faces_meet_are_looked_at() {
+    let corner = |imposed: &[&str], stated: &[&str]| {
+        let stated: Vec<&str> = std::iter::once("v,ii + p = 0")
+            .chain(stated.iter().copied())
+            .collect();
+        let own = Model {
+            density: "v,i v,i/2 - p v",
+            variables: &["x", "y", "z"],
+            fields: &["v"],
+            data: &["p"],
+            imposed,
+            stated: &stated,
+            ..LOADED
+        };
+        own.euler()
+    };
+    let at = "x = 0, y = 0, z = 0";
+    for own in ["v = 0", "v,x = 0", "v = 5"] {
+        let (word, detail) = corner(&[], &[&format!("{at}: {own}")]);
+        assert_eq!(word, "refuted", "{own}: {detail}");
+    }
+    // In any order of the faces.
+    let turned = "z = 0, x = 0, y = 0";
+    let imposed = format!("{at}: v = 5");
+    for (own, expected) in [
+        ("v = 4", "refuted"),
+        ("v = 5", "proved"),
+        ("2 v = 10", "proved"),
+    ] {
+        let (word, detail) = corner(&[&imposed], &[&format!("{turned}: {own}")]);
+        assert_eq!(word, expected, "{own}: {detail}");
+    }
+    // What is imposed along an edge holds where it ends.
+    let edge = "x = 0, y = 0: v = z";
+    for (own, expected) in [("v = 0", "proved"), ("v = 1", "refuted")] {
+        let (word, detail) = corner(&[edge], &[&format!("{at}: {own}")]);
+        assert_eq!(word, expected, "{own}: {detail}");
+    }
+}
+
+/// Faces that do not meet, a face named twice, and three faces in a plane are mistakes.
+#[test]
+fn places_that_are_none_are_refused() {
+    for (variables, on) in [
+        (&["x", "y"][..], "x = 0, x = 1"),
+        (&["x", "y"], "x = 0, x = 1, y = 0"),
+        (&["x", "y"], "x = 0, x = 0"),
+        (&["x"], "x = 0, x = 1"),
+    ] {
+        let stated = format!("{on}: v = 0");
+        let own = Model {
+            density: "v,x v,x/2",
+            variables,
+            fields: &["v"],
+            data: &[],
+            stated: &[&stated],
+            ..LOADED
+        };
+        let said = read_text("p4p", &own.text(), &[])
+            .diagnostics
+            .render(Style::Plain);
+        assert!(said.contains("no-meeting"), "{on}: {said}");
+    }
 }

@@ -52,6 +52,27 @@ pub(super) fn absent(functional: &Functional, variation: &Variation) -> Vec<Stri
     absent.map(|field| field.name.clone()).collect()
 }
 
+/// What is imposed in the interior without a multiplier and restricts varied fields there, by its labels; empty where nothing does.
+pub(super) fn restricting(functional: &Functional) -> String {
+    let space = &functional.space;
+    let varied: Vec<usize> = functional
+        .interior()
+        .flat_map(|field| field.components.clone())
+        .collect();
+    let restricts = |residual: &[Expr]| {
+        space
+            .jets_in(residual)
+            .iter()
+            .any(|jet| varied.contains(&jet.component))
+    };
+    let own = functional
+        .restricting()
+        .filter(|own| own.on.is_none() && restricts(&own.residuals));
+    own.map(|own| format!("({})", own.label))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
 /// Equations in index notation; none where no index occurs, as they are those in components then.
 fn with_indices(all: Vec<Indexed>) -> Vec<Indexed> {
     if all.iter().any(|own| has_index(&own.value)) {

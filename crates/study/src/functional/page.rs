@@ -2,7 +2,7 @@
 
 use super::equations::{
     absent, boundary, dependence, euler, given, head, in_order, indexed_euler, indexed_natural,
-    joined, kind, labels, number, used, Indexed, Shown,
+    joined, kind, labels, number, restricting, used, Indexed, Shown,
 };
 use super::typesetting::{
     as_written, caption, field_name, formula, in_indices, in_print, vanishing, variation_name,
@@ -264,6 +264,10 @@ fn inside(f: &Functional, variation: &Variation) -> Vec<EquationSection> {
     let mut in_words = "The coefficient of each variation in the interior vanishes.".to_owned();
     for name in absent(f, variation) {
         in_words.push_str(&format!(" That of δ{name} vanishes identically."));
+    }
+    let restricting = restricting(f);
+    if !restricting.is_empty() {
+        in_words.push_str(&format!(" That is so where all fields are varied freely; {restricting} restricts that, and only what the variations that are left ask has to hold."));
     }
     let has_pairs = f.interior().any(|field| field.shape == Shape::Symmetric);
     let in_components = if has_pairs && f.space.dimensions() > 1 {

@@ -2,7 +2,7 @@
 
 use super::equations::{
     absent, boundary, dependence, euler, given, in_order, indexed_euler, indexed_natural, joined,
-    kind, used, Indexed, Shown,
+    kind, restricting, used, Indexed, Shown,
 };
 use super::table;
 use crate::layout::{hanging, terms};
@@ -42,6 +42,11 @@ fn derived(text: &mut String, study: &Study, style: Style) {
             return;
         }
     };
+    let restricting = restricting(f);
+    if !restricting.is_empty() {
+        let said = format!("where all are varied freely; {restricting} restricts that");
+        text.push_str(&hanging("    ", &said));
+    }
     for name in absent(f, variation) {
         let of = format!("δ{name}");
         let _ = writeln!(text, "    {of:<12} vanishes identically");

@@ -1,9 +1,10 @@
 //! The comparison of what follows from the first variation with what is stated, both ways: in the interior, on every piece of the boundary,
 //! and where pieces meet.
 
+use super::squares;
 use crate::elimination::{Entries, Group, Pivot, Solved};
 use crate::functional::{Equation, Functional, Piece, Role};
-use crate::variation::{acting_at_edge, at_edge, Condition, OnPiece, Trace, Variation};
+use crate::variation::{acting_at_edge, at_edge, Condition, Corner, OnPiece, Trace, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::{Cell, RefCell};
@@ -70,11 +71,13 @@ impl<'f> Comparison<'f> {
         let inside = |role: Role| groups(functional, role, None);
         let imposed = Solved::new(space).where_nonnegative(nonnegative);
         let imposed = imposed.with(&inside(Role::Imposed));
+        let mut derived = euler_groups(functional, variation);
+        derived.extend(squares::inside(functional));
         Comparison {
             functional,
             variation,
             planes,
-            derived: imposed.with(&euler_groups(functional, variation)),
+            derived: imposed.with(&derived),
             stated: imposed.with(&inside(Role::Yielded)),
             on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
@@ -146,49 +149,41 @@ impl<'f> Comparison<'f> {
         let stated = functional
             .with_role(Role::Yielded)
             .filter_map(|e| e.on.as_deref());
-        let derived = self
-            .variation
-            .corners
-            .iter()
-            .map(|c| format!("{}, {}", c.pieces.0, c.pieces.1));
-        let mut places: Vec<(String, String)> = Vec::new();
+        let derived = self.variation.corners.iter().map(Corner::place);
+        let mut places: Vec<Vec<&Piece>> = Vec::new();
         for place in stated.map(str::to_owned).chain(derived) {
-            let Some((one, other)) = functional.meeting(&place) else {
-                continue;
-            };
-            let pair = (one.name.clone(), other.name.clone());
-            let swapped = (pair.1.clone(), pair.0.clone());
-            if !places.contains(&pair) && !places.contains(&swapped) {
-                places.push(pair);
+            let own = functional.meeting(&place);
+            if let Some(own) = own.filter(|own| !places.iter().any(|known| are_same(known, own))) {
+                places.push(own);
             }
         }
-        for pair in places {
-            self.corner(&pair, judged);
+        for place in places {
+            self.corner(&place, judged);
         }
     }
 
-    fn corner(&self, pair: &(String, String), judged: &mut Vec<Judged>) {
+    /// The conditions where faces meet: those of this place are judged, and those of the faces and of the edges that end there hold too.
+    fn corner(&self, place: &[&Piece], judged: &mut Vec<Judged>) {
         let functional = self.functional;
         let is_here = |on: &str| {
-            functional.meeting(on).is_some_and(|(a, b)| {
-                (a.name == pair.0 && b.name == pair.1) || (a.name == pair.1 && b.name == pair.0)
-            })
+            let own = functional.meeting(on);
+            own.is_some_and(|own| are_same(&own, place))
         };
-        let here: Vec<&crate::variation::Corner> = self
-            .variation
-            .corners
-            .iter()
-            .filter(|c| is_here(&format!("{}, {}", c.pieces.0, c.pieces.1)))
-            .collect();
+        let holds_here = |on: &str| {
+            let own = functional.meeting(on);
+            own.is_some_and(|own| own.iter().all(|one| is_among(one, place)))
+        };
+        let corners = self.variation.corners.iter();
+        let (here, ending): (Vec<&Corner>, Vec<&Corner>) = corners
+            .filter(|c| holds_here(&c.place()))
+            .partition(|c| is_here(&c.place()));
         let (mut derived, mut stated) = (self.derived.clone(), self.stated.clone());
-        for name in [&pair.0, &pair.1] {
-            let (Some(piece), Some(on)) = (
-                functional.piece(name),
-                self.variation.pieces.iter().find(|p| p.piece == *name),
-            ) else {
+        for piece in place {
+            let mut known = self.variation.pieces.iter();
+            let Some(on) = known.find(|own| own.piece == piece.name) else {
                 continue;
             };
-            let name = Some(name.as_str());
+            let name = Some(piece.name.as_str());
             let imposed = groups(functional, Role::Imposed, name);
             derived = derived
                 .with_on(&piece.side, &imposed)
@@ -201,24 +196,26 @@ impl<'f> Comparison<'f> {
         }
         let conditions: Vec<Group> = here
             .iter()
+            .chain(&ending)
             .map(|c| Group {
                 label: "corner".into(),
                 equations: vec![c.value],
             })
             .collect();
-        let with_role = |role: Role| {
-            let own = functional.with_role(role);
-            own.filter(|e| e.on.as_deref().is_some_and(is_here))
-        };
         let groups_of = |role: Role| -> Vec<Group> {
-            let all = with_role(role).map(|e| Group {
+            let own = functional.with_role(role);
+            let own = own.filter(|e| e.on.as_deref().is_some_and(holds_here));
+            let all = own.map(|e| Group {
                 label: e.label.clone(),
                 equations: e.residuals.clone(),
             });
             all.collect()
         };
         let imposed = groups_of(Role::Imposed);
-        let equations: Vec<&Equation> = with_role(Role::Yielded).collect();
+        let equations = functional.with_role(Role::Yielded);
+        let equations: Vec<&Equation> = equations
+            .filter(|e| e.on.as_deref().is_some_and(is_here))
+            .collect();
         derived = derived.with_where_meeting(&[imposed.clone(), conditions].concat());
         stated = stated.with_where_meeting(&[imposed, groups_of(Role::Yielded)].concat());
         if derived.contradiction().is_some() {
@@ -232,12 +229,10 @@ impl<'f> Comparison<'f> {
         }
         for corner in here {
             let name = functional.space.component_at(corner.component).name;
-            let what = format!(
-                "the condition of {name} where {} and {} meet",
-                pair.0, pair.1
-            );
+            let (one, other) = &corner.pieces;
+            let what = format!("the condition of {name} where {one} and {other} meet");
             let own = self.judge(what, &[corner.value], &stated, &residuals);
-            let on = format!("{}, {}", pair.0, pair.1);
+            let on = corner.place();
             judged.push(self.as_whole(own, &[corner.value], System::Stated, Some(&on)));
         }
     }
@@ -322,8 +317,29 @@ impl<'f> Comparison<'f> {
         self.nonzero.borrow_mut().extend(divided);
     }
 
-    /// The verdict on expressions where a system holds; those that are among its equations as they are need no solution of it.
+    /// The verdict on expressions where a system holds, also where something vanishes that was divided by.
     fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>, equations: &[Expr]) -> Judged {
+        let mut own = self.judge_in_general(what, es, solved, equations);
+        let is_proved = matches!(own.verdict, Verdict::Proved(_));
+        if !is_proved || !self.refutes || self.are_among(es, equations).is_some() {
+            return own;
+        }
+        own.pivots.retain(|pivot| pivot.entries != Entries::Fields);
+        match solved.where_singular(es) {
+            Ok(open) => own.pivots.extend(open),
+            Err(found) => own.verdict = Verdict::Refuted(*found),
+        }
+        own
+    }
+
+    /// The verdict on expressions where a system holds; those that are among its equations as they are need no solution of it.
+    fn judge_in_general(
+        &self,
+        what: String,
+        es: &[Expr],
+        solved: &Solved<'f>,
+        equations: &[Expr],
+    ) -> Judged {
         if let Some(verdict) = self.are_among(es, equations) {
             return Judged {
                 what,
@@ -444,7 +460,9 @@ impl<'f> Comparison<'f> {
                 return refuted(&own.what, found.clone());
             }
         }
+        // Where coefficients made of fields vanish is a case that was looked at.
         let mut pivots = pivots.clone();
+        pivots.retain(|pivot| pivot.entries != Entries::Fields);
         for own in judged {
             match own.verdict {
                 Verdict::Proved(proof) => {
@@ -493,25 +511,10 @@ impl<'f> Comparison<'f> {
                 .push_str("; curved pieces meet with a common tangent plane");
         }
         proof.detail = self.detail();
-        let of = |entries: Entries| {
-            let own = pivots.iter().filter(|pivot| pivot.entries == entries);
-            own.map(|pivot| pivot.tensor.as_str())
-                .collect::<BTreeSet<_>>()
-        };
-        let joined = |names: BTreeSet<&str>| names.into_iter().collect::<Vec<_>>().join(" and ");
-        let of_fields = of(Entries::Fields);
-        if !of_fields.is_empty() {
-            proof.detail.push_str(&format!(
-                ", where the coefficients of {}, in which fields occur, are regular",
-                joined(of_fields)
-            ));
-        }
-        let of_parameters = of(Entries::Parameters);
-        if !of_parameters.is_empty() {
-            proof.detail.push_str(&format!(
-                ", where the matrix of the coefficients of {}, in which parameters stand, is regular",
-                joined(of_parameters)
-            ));
+        for pivot in &pivots {
+            if pivot.entries != Entries::Normal {
+                proof.detail.push_str(&pivot.said());
+            }
         }
         for more in self.traces().into_iter().chain(self.undetermined()) {
             proof.detail.push_str(&format!(", {more}"));
@@ -552,10 +555,21 @@ impl<'f> Comparison<'f> {
         let functional = self.functional;
         let imposed = groups(functional, Role::Imposed, Some(&on.piece));
         let here = self.derived.with_on(&piece.side, &imposed);
-        let own = here.with(&condition_groups(functional, on, &on.conditions));
+        let mut conditions = condition_groups(functional, on, &on.conditions);
+        conditions.extend(squares::on_piece(functional, piece));
+        let own = here.with(&conditions);
         let mut known = self.on_pieces.borrow_mut();
         known.entry(on.piece.clone()).or_insert(own).clone()
     }
+}
+
+fn is_among(piece: &Piece, place: &[&Piece]) -> bool {
+    place.iter().any(|own| own.name == piece.name)
+}
+
+/// Whether these are the same pieces.
+fn are_same(one: &[&Piece], other: &[&Piece]) -> bool {
+    one.len() == other.len() && one.iter().all(|own| is_among(own, other))
 }
 
 /// Why what is refuted at one place is not refuted of the systems.

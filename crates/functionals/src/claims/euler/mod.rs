@@ -8,6 +8,7 @@ mod plane;
 mod propagation;
 mod remarks;
 mod separation;
+mod squares;
 
 use self::comparison::Comparison;
 use self::conditions::{in_words, open_factors, where_defined, where_nonzero, Needed};
