@@ -73,6 +73,9 @@ pub fn follow(
             break;
         }
     }
+    for own in special.iter_mut().map(|own| &mut own.point).chain(&mut all) {
+        own.spectrum = std::mem::take(&mut own.spectrum).completed();
+    }
     Ok(Branch {
         points: all,
         special,

@@ -170,10 +170,6 @@ impl Equations for Equilibria<'_> {
         let trivial = [
             ("a finite constraint", self.flow.finite.len()),
             ("the family of steady motions", family),
-            (
-                "the equations at all values of the parameter",
-                zeros - family,
-            ),
         ];
         let names = trivial.into_iter();
         let names = names.flat_map(|(name, count)| std::iter::repeat_n(name.to_owned(), count));
@@ -182,6 +178,7 @@ impl Equations for Equilibria<'_> {
             errors: errors(&kept, &values),
             values,
             trivial: names.collect(),
+            zeros: zeros - family,
         })
     }
 

@@ -610,6 +610,14 @@ fn zeros_along_the_whole_curve_pass_nothing() {
             is_close(found[0].1, 0.0, 1e-12);
         }
     }
+    // They are among the eigenvalues, beside a pair on the axis.
+    let (flow, _) = flow(&free(0.0, "1/2 p (y - x)^2 - 1/2 s^2"), &state);
+    let found = curve(&flow, "p", (&[0.0; 6], 1.0), (1.0, 2.0), points(300));
+    for point in &found.points {
+        let values = &point.spectrum.values;
+        let zeros = values.iter().filter(|l| l.norm() == 0.0).count();
+        assert_eq!((values.len(), zeros, found.family), (5, 1, 1), "{values:?}");
+    }
     let alone = "coordinates = [\"x\"]\nparameters = { p = 1 }\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"-p x' + x^3\"\n";
     let found = happens(alone, &[("x", 0.0), ("x'", 0.0)], (0.5, 1.5));
     assert_eq!(found, []);
