@@ -8,7 +8,7 @@ use crate::expansion::Expansion;
 use crate::hurwitz::{Boundary, Crossing, Ranges};
 use crate::integrals::Jet;
 use crate::isolation::{without_power, Root};
-use crate::parameter_values::for_which;
+use crate::parameter_values::{for_which, of_general};
 use crate::problem::LinearizationError;
 use crate::question::{
     bound_of, general_parameters, parameter_of_motion, values_at, values_but, Place, Question,
@@ -443,18 +443,15 @@ fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
         Place::Left | Place::Right => Vec::new(),
         Place::OnAxis | Place::NotLeft => about.general_parameters(),
     };
+    let limited = |detail: String| of_general(detail, &general);
     match statement.said(about, place, None) {
-        Said::Holds(why) => Verdict::Proved(Proof::exact(for_which(&general), why)),
+        Said::Holds(why) => Verdict::Proved(Proof::exact(for_which(&general), limited(why))),
         Said::Open(why) => Verdict::undecided(why),
         Said::Fails => {
             let found = statement.counterexample(about, place, None);
-            let detail = match general.as_slice() {
-                [] => found.detail.clone(),
-                own => format!("{}; {}", found.detail, for_which(own)),
-            };
             Verdict::Refuted(Counterexample {
                 point: stated_values(about),
-                detail,
+                detail: limited(found.detail),
                 ..found
             })
         }

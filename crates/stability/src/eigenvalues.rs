@@ -278,7 +278,12 @@ pub fn modes(
         separate(&mut basis);
     }
     let of = |column: usize| {
-        let entries = basis.column(column);
+        let mut entries = basis.column(column).into_owned();
+        // In other units what is rounding here may be large.
+        let least = ROUNDED * entries.camax();
+        for entry in entries.iter_mut().filter(|z| z.norm() < least) {
+            *entry = Complex::new(0.0, 0.0);
+        }
         let vector: Vec<Complex<f64>> = entries.iter().zip(&scale).map(|(z, d)| z * *d).collect();
         let largest = vector.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         let length = vector.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
@@ -287,6 +292,9 @@ pub fn modes(
     };
     (0..count).map(of).collect()
 }
+
+/// An entry below this part of the largest is rounding.
+const ROUNDED: f64 = 1e-13;
 
 /// Another basis of the same space: each vector with a 1 where all others have a zero, in the order of these places.
 fn separate(basis: &mut DMatrix<Complex<f64>>) {

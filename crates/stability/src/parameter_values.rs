@@ -89,6 +89,14 @@ pub(crate) fn for_which(general: &[String]) -> String {
     }
 }
 
+/// What is said, with the parameters of which it is said in general.
+pub(crate) fn of_general(said: String, general: &[String]) -> String {
+    match general {
+        [] => said,
+        names => format!("{said}; {}", for_which(names)),
+    }
+}
+
 /// What a model states of motions: L, forces, constraints and laws of controls, with the definitions that they use.
 pub fn stated_functions(system: &System) -> Vec<Expr> {
     let constraints = system.constraints.iter().map(|own| own.stated);

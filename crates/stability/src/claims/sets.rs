@@ -1,12 +1,11 @@
 //! All states of rest, and all steady motions, of a system.
 
 use super::stated::refused;
-use crate::parameter_values::{for_which, general_parameters, stated_functions};
+use crate::parameter_values::{for_which, general_parameters, of_general, stated_functions};
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_set::{all_of, Sought};
 use crate::steady_value::SteadySetError;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_mechanics::System;
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Graph, Verdict};
@@ -76,7 +75,8 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
     match found {
         Ok(Ok(set)) => {
             let g = &system.graph;
-            let said = listed(g, &set, sought);
+            let general = general_parameters(system, &stated_functions(system));
+            let said = of_general(listed(g, &set, sought), &general);
             // States of the system at which no chart serves may be at rest all the same.
             let is_left_out = !set.is_complete();
             if is_left_out {
@@ -85,7 +85,7 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
             }
             // Whether a family has real members is a part of which there are.
             if set.found.iter().all(|own| own.is_real) {
-                Verdict::Proved(Proof::exact(on(system, &set), said))
+                Verdict::Proved(Proof::exact(on(g, &set, &general), said))
             } else {
                 Verdict::undecided(said)
             }
@@ -99,12 +99,9 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
 }
 
 /// For which values of parameters, and for which states.
-fn on(system: &System, set: &SteadySet) -> String {
-    let general = general_parameters(system, &stated_functions(system));
-    let values = for_which(&general);
-    let left_out = set.left_out(&system.graph);
-    let parts: Vec<String> = std::iter::once(values).chain(left_out).collect();
-    parts.join("; ")
+fn on(g: &Graph, set: &SteadySet, general: &[String]) -> String {
+    let parts = std::iter::once(for_which(general)).chain(set.left_out(g));
+    parts.collect::<Vec<_>>().join("; ")
 }
 
 /// How many, and which.

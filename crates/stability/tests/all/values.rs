@@ -473,6 +473,7 @@ fn what_general_values_say_is_not_said_of_all() {
             panic!("{claim}");
         };
         assert!(found.on.contains(general), "{found:?}");
+        assert!(found.detail.contains(general), "{found:?}");
     }
 }
 

@@ -261,6 +261,15 @@ fn zeros_of_a_free_chain_are_exact() {
             1,
             "{modes:?}"
         );
+        let still = modes
+            .iter()
+            .find(|own| own.eigenvalue == (0.0, 0.0))
+            .unwrap();
+        for (at, entry) in still.vector.iter().enumerate() {
+            let expected = if at < 3 { 3.0_f64.sqrt().recip() } else { 0.0 };
+            let distance = (entry.0 - expected).hypot(entry.1);
+            assert!(distance < 1e-12, "{still:?}");
+        }
     }
 }
 
