@@ -29,6 +29,15 @@ pub trait Equations {
     /// [`OrbitError`] where it has no value.
     fn evaluate(&mut self, x: &[f64], p: f64) -> Result<Linearized, OrbitError>;
 
+    /// Told where a curve begins, with values of the parameter beside it, before eigenvalues along it are asked for.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where there is no value.
+    fn begin(&mut self, x: &[f64], p: f64, aside: &[f64]) -> Result<(), OrbitError> {
+        let _ = (x, p, aside);
+        Ok(())
+    }
+
     /// The eigenvalues at a solution; `family` is the dimension of the family of solutions at the same p.
     ///
     /// # Errors

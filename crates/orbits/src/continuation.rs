@@ -7,7 +7,7 @@
 use crate::branch::{scaled, Branch, End, Equations, Kind, Point, Special};
 use crate::error::OrbitError;
 use crate::hopf::WithoutLyapunov;
-use crate::solution::{is_done, is_solved, ordinary, scale, unscaled};
+use crate::solution::{aside, is_done, is_solved, ordinary, scale, unscaled};
 use crate::subspace::{decomposed, kernel, least_squares};
 use chetaev_symbolic::meter::spend;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -49,7 +49,10 @@ pub fn follow(
     pace: Pace,
 ) -> Result<Branch, OrbitError> {
     let p = p.clamp(range.0, range.1);
-    let (start, family) = ordinary(equations, (guess, p), range)?;
+    let (mut start, family) = ordinary(equations, (guess, p), range)?;
+    let (x, p) = (&start.unknowns, start.parameter);
+    equations.begin(x, p, &aside(p, range))?;
+    start.spectrum = equations.spectrum(x, p, family)?;
     let mut walk = Walk::new(equations, &start, family, range)?;
     let mut ends = [End::Range; 2];
     let (mut all, mut special) = (Vec::new(), Vec::new());
@@ -69,6 +72,9 @@ pub fn follow(
             ends = [End::Closed; 2];
             break;
         }
+    }
+    for own in special.iter_mut().map(|own| &mut own.point).chain(&mut all) {
+        own.spectrum = std::mem::take(&mut own.spectrum).completed();
     }
     Ok(Branch {
         points: all,

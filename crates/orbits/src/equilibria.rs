@@ -5,9 +5,10 @@ use crate::error::OrbitError;
 use crate::flow::Flow;
 use crate::hopf::first_lyapunov;
 use crate::multipliers::{eigenvalues, errors, Spectrum};
-use crate::subspace::{decomposed, nullity};
+use crate::solution::solution;
+use crate::subspace::{complement, nullity, nullity_below};
 use chetaev_motion::functions::Functions;
-use chetaev_stability::eigenvalues::{balanced, Balanced};
+use chetaev_stability::eigenvalues::{balanced, beside_zeros, Balanced};
 use chetaev_symbolic::Symbol;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -21,6 +22,8 @@ pub struct Equilibria<'f> {
     values: Vec<f64>,
     /// The dimension of the family of solutions that was asked of last.
     family: usize,
+    /// How many eigenvalues are zero along the whole curve that is followed.
+    zeros: usize,
 }
 
 /// Pairs whose sum is a smaller part of the largest eigenvalue vanish by structure, as in systems with an energy.
@@ -55,6 +58,7 @@ impl<'f> Equilibria<'f> {
             flow,
             place,
             family: 0,
+            zeros: 0,
         })
     }
 
@@ -74,7 +78,43 @@ impl<'f> Equilibria<'f> {
         let n = self.flow.n();
         DMatrix::from_row_slice(n, n, &self.functions.group(1)[..n * n])
     }
+
+    /// ∂f/∂z on what the finite constraints leave, in suitable units of the variables: subspaces are found to rounding of the largest entry.
+    fn on_constraints(&self) -> DMatrix<f64> {
+        let n = self.flow.n();
+        let Balanced {
+            matrix,
+            unit,
+            scale,
+        } = balanced(&self.slopes());
+        let slopes = matrix * unit;
+        let rows = &self.functions.group(1)[n * n..];
+        let gradients = DMatrix::from_fn(n, rows.len() / n.max(1), |variable, constraint| {
+            rows[constraint * n + variable] * scale[variable]
+        });
+        if gradients.is_empty() {
+            return slopes;
+        }
+        let kept = complement(n, &gradients);
+        kept.tr_mul(&(slopes * &kept))
+    }
+
+    /// How many eigenvalues are zero at a solution, as ranks say: a zero of a chain is none to rounding.
+    fn zeros(&mut self, x: &[f64], p: f64) -> Result<usize, OrbitError> {
+        self.set(x, p)?;
+        let mut matrix = self.on_constraints();
+        let least = ZERO * matrix.norm();
+        let mut found = 0;
+        while nullity_below(&matrix, least) > 0 {
+            matrix = beside_zeros(&matrix, 1).ok_or(OrbitError::NoEigenvalues)?;
+            found += 1;
+        }
+        Ok(found)
+    }
 }
+
+/// Singular values below this part of the matrix are those of a zero eigenvalue.
+const ZERO: f64 = 1e-12;
 
 impl Equations for Equilibria<'_> {
     fn what(&self) -> &'static str {
@@ -109,32 +149,36 @@ impl Equations for Equilibria<'_> {
         nullity(&own, FAMILY)
     }
 
-    /// On the range of ∂f/∂z, the complement of which structure gives, the zeros of finite constraints and of the family are not seen.
+    /// What is zero at solutions on both sides of the start is zero along the curve: at the start itself more may be.
+    fn begin(&mut self, x: &[f64], p: f64, aside: &[f64]) -> Result<(), OrbitError> {
+        let mut found = self.zeros(x, p)?;
+        for &q in aside {
+            if let Ok((beside, _)) = solution(self, x, q) {
+                found = found.min(self.zeros(&beside.unknowns, q)?);
+            }
+        }
+        self.zeros = found;
+        Ok(())
+    }
+
+    /// Where finite constraints leave nothing, and beside the zeros of the family and those that are so along the whole curve.
     fn spectrum(&mut self, x: &[f64], p: f64, family: usize) -> Result<Spectrum, OrbitError> {
         self.set(x, p)?;
         self.family = family;
-        // Subspaces are found to rounding of the largest entry: in suitable units of the variables.
-        let Balanced { matrix, unit, .. } = balanced(&self.slopes());
-        let slopes = matrix * unit;
-        let finite = self.flow.finite.len();
-        let names = std::iter::repeat_n("a finite constraint".to_owned(), finite);
-        let of_family = std::iter::repeat_n("the family of steady motions".to_owned(), family);
-        let trivial: Vec<String> = names.chain(of_family).collect();
-        let count = self.flow.n().saturating_sub(trivial.len());
-        let range = match decomposed(&slopes) {
-            Some(found) => DMatrix::from(found.u.columns(0, count)),
-            None => return Err(OrbitError::NoEigenvalues),
-        };
-        let kept = if trivial.is_empty() {
-            slopes
-        } else {
-            range.tr_mul(&(slopes * &range))
-        };
+        let zeros = self.zeros.max(family);
+        let kept = beside_zeros(&self.on_constraints(), zeros).ok_or(OrbitError::NoEigenvalues)?;
+        let trivial = [
+            ("a finite constraint", self.flow.finite.len()),
+            ("the family of steady motions", family),
+        ];
+        let names = trivial.into_iter();
+        let names = names.flat_map(|(name, count)| std::iter::repeat_n(name.to_owned(), count));
         let values = eigenvalues(&kept)?;
         Ok(Spectrum {
             errors: errors(&kept, &values),
             values,
-            trivial,
+            trivial: names.collect(),
+            zeros: zeros - family,
         })
     }
 

@@ -18,6 +18,25 @@ pub struct Spectrum {
     pub errors: Vec<f64>,
     /// Those that it does, each by what it belongs to; they are 0 of linear equations and 1 of a monodromy matrix.
     pub trivial: Vec<String>,
+    /// How many further ones are zero along the whole curve: they are in no test of what passes, and decide all the same.
+    pub zeros: usize,
+}
+
+impl Spectrum {
+    /// The same with those that are zero along the whole curve among the values.
+    pub(crate) fn completed(self) -> Spectrum {
+        let zeros = vec![(Complex::new(0.0, 0.0), 0.0); self.zeros];
+        let own = self.values.into_iter().zip(self.errors);
+        let mut all: Vec<(Complex<f64>, f64)> = own.chain(zeros).collect();
+        all.sort_by(|(a, _), (b, _)| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+        let (values, errors) = all.into_iter().unzip();
+        Spectrum {
+            values,
+            errors,
+            trivial: self.trivial,
+            zeros: 0,
+        }
+    }
 }
 
 /// A direction with what it belongs to.
@@ -49,6 +68,7 @@ pub fn split(
         errors: vec![error; values.len()],
         values,
         trivial: names.collect(),
+        zeros: 0,
     })
 }
 

@@ -160,6 +160,14 @@ fn at_distance(
 /// How far beside a start its family is looked at, in parts of the range.
 const ASIDE: f64 = 1e-3;
 
+/// Values of the parameter on both sides of a start, in the range.
+pub(crate) fn aside(p: f64, range: (f64, f64)) -> Vec<f64> {
+    let aside = ASIDE * (range.1 - range.0);
+    let mut all = vec![p + aside, p - aside];
+    all.retain(|q| *q >= range.0 && *q <= range.1);
+    all
+}
+
 /// A solution near a guess from which a curve can begin, with the dimension of the family at general values of the parameter.
 ///
 /// The rank of ∂F/∂x is the largest at general points, and falls at those where something happens: a family that exists at one value of the
@@ -170,10 +178,9 @@ pub(crate) fn ordinary(
     range: (f64, f64),
 ) -> Result<(Point, usize), OrbitError> {
     let mut found = solution(equations, guess, p)?;
-    let aside = ASIDE * (range.1 - range.0);
     let guess = found.0.unknowns.clone();
-    for q in [p + aside, p - aside] {
-        if found.1 == 0 || q < range.0 || q > range.1 {
+    for q in aside(p, range) {
+        if found.1 == 0 {
             continue;
         }
         let beside = solution(equations, &guess, q).ok();

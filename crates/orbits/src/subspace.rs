@@ -27,11 +27,17 @@ pub(crate) fn decomposed(m: &DMatrix<f64>) -> Option<Decomposed> {
 
 /// How many columns depend on the others: singular values below a part of the largest.
 pub(crate) fn nullity(m: &DMatrix<f64>, part: f64) -> usize {
-    let Some(found) = decomposed(m) else {
+    let largest = decomposed(m).and_then(|found| found.s.first().copied());
+    nullity_below(m, part * largest.unwrap_or(0.0))
+}
+
+/// The same for singular values below a limit.
+pub(crate) fn nullity_below(m: &DMatrix<f64>, limit: f64) -> usize {
+    if m.is_empty() {
         return m.ncols();
-    };
-    let limit = part * found.s.first().copied().unwrap_or(0.0);
-    let rank = found.s.iter().filter(|s| **s > limit).count();
+    }
+    let values = decomposed(m).map(|found| found.s).unwrap_or_default();
+    let rank = values.iter().filter(|s| **s > limit).count();
     m.ncols() - rank.min(m.ncols())
 }
 

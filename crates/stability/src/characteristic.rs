@@ -43,6 +43,18 @@ impl Characteristic {
         })
     }
 
+    /// The same at values of parameters, with the zeros that are so there alone.
+    pub fn at(&self, g: &Graph, values: &[(Expr, Expr)]) -> Characteristic {
+        let all = g.substitute_all(&self.coefficients, values).into_iter();
+        let all: Vec<Expr> = all.map(|e| closed(g, e)).collect();
+        let vanishing = all.iter().take_while(|&&e| g.is_zero(e)).count();
+        Characteristic {
+            coefficients: all[vanishing..].to_vec(),
+            zeros: self.zeros,
+            further_zeros: self.further_zeros + vanishing,
+        }
+    }
+
     /// The degree without the zeros that were split off.
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)

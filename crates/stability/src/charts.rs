@@ -11,6 +11,7 @@ use crate::steady_value::{precision, Value};
 use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{Selection, System};
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::number::ball::Ball;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use std::cmp::Ordering;
 
@@ -36,6 +37,9 @@ pub(crate) fn union(system: &System, own: &mut SteadySet, other: &SteadySet) {
     let mut unseen = Vec::new();
     for found in &other.found {
         let Some(at) = values_along(system, found) else {
+            if is_seen(g, own, (other, found)) {
+                continue;
+            }
             return;
         };
         let vanishes = |&e: &Expr| {
@@ -65,6 +69,20 @@ pub(crate) fn union(system: &System, own: &mut SteadySet, other: &SteadySet) {
         }
     }
     own.excluded = both;
+}
+
+/// Whether a single motion without closed form lies where a chart serves: none of what was divided by vanishes in its enclosure.
+fn is_seen(g: &Graph, own: &SteadySet, (other, found): (&SteadySet, &Found)) -> bool {
+    let value = |s: Symbol| {
+        let name = g.symbol_text(s);
+        let at = other.variables.iter().position(|own| *own == name)?;
+        match found.values.get(at)? {
+            Value::Number { ball, .. } => Some(ball.clone()),
+            _ => None,
+        }
+    };
+    let enclosed = g.enclose(&own.excluded, &precision(), &value);
+    enclosed.is_ok_and(|all| all.iter().all(Ball::excludes_zero))
 }
 
 /// Positions and velocities of a motion.

@@ -8,8 +8,11 @@ use crate::expansion::Expansion;
 use crate::hurwitz::{Boundary, Crossing, Ranges};
 use crate::integrals::Jet;
 use crate::isolation::{without_power, Root};
+use crate::parameter_values::{for_which, of_general};
 use crate::problem::LinearizationError;
-use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
+use crate::question::{
+    bound_of, general_parameters, parameter_of_motion, values_at, values_but, Place, Question,
+};
 use crate::real_roots::{decimal, overlap, sign_of, zeros_of_factors, Zero, FINE, USUAL};
 use crate::real_values::not_real;
 use crate::steady::closed;
@@ -88,6 +91,13 @@ impl<'a> About<'a> {
 
     pub(crate) fn graph(&self) -> &Graph {
         &self.expansion.system.graph
+    }
+
+    /// The parameters without a value on which the linear equations depend.
+    fn general_parameters(&self) -> Vec<String> {
+        let linear = &self.question.linear;
+        let entries = [linear.left.concat(), linear.right.concat()].concat();
+        general_parameters(self.expansion.system, &entries)
     }
 
     /// Combinations of integrals that are known in finite terms, those for general values of a parameter among them.
@@ -428,16 +438,23 @@ fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
             "the signs of Hurwitz's determinants were not decided"
         });
     };
+    // Where no sign depends on a parameter without a value the eigenvalues lie so for all values; multiplicities and ranks are those of general ones.
+    let general = match place {
+        Place::Left | Place::Right => Vec::new(),
+        Place::OnAxis | Place::NotLeft => about.general_parameters(),
+    };
+    let limited = |detail: String| of_general(detail, &general);
     match statement.said(about, place, None) {
-        Said::Holds(why) => Verdict::Proved(Proof::exact(
-            "for the values of the parameters that are stated",
-            why,
-        )),
+        Said::Holds(why) => Verdict::Proved(Proof::exact(for_which(&general), limited(why))),
         Said::Open(why) => Verdict::undecided(why),
-        Said::Fails => Verdict::Refuted(Counterexample {
-            point: stated_values(about),
-            ..statement.counterexample(about, place, None)
-        }),
+        Said::Fails => {
+            let found = statement.counterexample(about, place, None);
+            Verdict::Refuted(Counterexample {
+                point: stated_values(about),
+                detail: limited(found.detail),
+                ..found
+            })
+        }
     }
 }
 
@@ -481,6 +498,8 @@ struct Border {
     holds: Option<bool>,
     /// Why it holds, where that does not follow from what is beside it.
     why: Option<String>,
+    /// The value in closed form, as it is written.
+    exact: Option<String>,
     /// There is no such motion, so that nothing fails.
     is_absent: bool,
 }
@@ -604,6 +623,7 @@ impl Pieces {
             root,
             holds: None,
             why: None,
+            exact: None,
             is_absent: false,
         };
         roots.retain(|root| admitted.contains_root(g, root, functions) != Some(false));
@@ -632,6 +652,7 @@ impl Pieces {
         for border in &mut self.borders {
             let root = &border.root.clone();
             let exact = closed_form(about.graph(), (symbol, root), functions);
+            border.exact = exact.map(|at| about.graph().text(at));
             if exact.is_some_and(|at| !exists(about, &values_at(system, symbol, at))) {
                 (border.holds, border.is_absent) = (Some(true), true);
                 continue;
@@ -784,7 +805,13 @@ impl Pieces {
                 && !b.is_absent
                 && beside.all(|piece| !matches!(piece.said, Said::Holds(_)))
         });
-        let alone = alone.map(|b| format!("{} = {}", self.name, self.decimal(&b.root.low)));
+        let alone = alone.map(|b| match &b.exact {
+            _ if b.root.low == b.root.high => {
+                format!("{} = {}", self.name, self.decimal(&b.root.low))
+            }
+            Some(exact) => format!("{} = {exact}", self.name),
+            None => b.place(&self.name),
+        });
         parts.extend(alone);
         parts.join(" or ")
     }

@@ -9,13 +9,70 @@ pub use nalgebra::Complex;
 /// The eigenvalues of `E δz' = F δz`, E and F row by row, ascending by real and then by imaginary part; `None` where E is singular to
 /// rounding or an entry is no number.
 pub fn eigenvalues(left: &[Vec<f64>], right: &[Vec<f64>]) -> Option<Vec<Complex<f64>>> {
-    let matrix = matrix(left, right)?;
-    if matrix.nrows() == 0 {
-        return Some(Vec::new());
+    as_known(left, right, &Known::default())
+}
+
+/// What is known exactly of eigenvalues that are computed.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// How many are zero.
+    pub zeros: usize,
+    /// Polynomials with simple zeros, the constant coefficient first, each with how often its zeros are eigenvalues.
+    pub multiple: Vec<(Vec<f64>, usize)>,
+}
+
+/// The same where something is known exactly of them: zeros are so to the last digit, and those that are multiple are the same as often as that. An
+/// eigenvalue of a chain of length k is computed to the k-th root of rounding alone.
+pub fn as_known(left: &[Vec<f64>], right: &[Vec<f64>], known: &Known) -> Option<Vec<Complex<f64>>> {
+    let Balanced { matrix, unit, .. } = balanced(&matrix(left, right)?);
+    let others = beside_zeros(&matrix, known.zeros)?;
+    let zeros = matrix.nrows() - others.nrows();
+    let mut others = spectrum(&(others * unit))?;
+    let mut found = vec![Complex::new(0.0, 0.0); zeros];
+    for (polynomial, multiplicity) in &known.multiple {
+        for root in zeros_of(polynomial)? {
+            for _ in 0..*multiplicity {
+                let places = (0..others.len()).map(|at| (at, (others[at] - root).norm()));
+                let nearest = places.min_by(|a, b| a.1.total_cmp(&b.1));
+                nearest.map(|(at, _)| others.swap_remove(at));
+                found.push(root);
+            }
+        }
     }
-    let mut found = spectrum(&matrix)?;
+    found.extend(others);
     found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
     Some(found)
+}
+
+/// The zeros of a polynomial, the constant coefficient first: eigenvalues of its companion matrix. A leading coefficient zero leaves none.
+pub fn zeros_of(coefficients: &[f64]) -> Option<Vec<Complex<f64>>> {
+    let (leading, rest) = coefficients.split_last()?;
+    let n = rest.len();
+    let entry = |r: usize, c: usize| match (r, c) {
+        (r, c) if c == n - 1 => -rest[r] / leading,
+        (r, c) if r == c + 1 => 1.0,
+        _ => 0.0,
+    };
+    let companion = DMatrix::from_fn(n, n, entry);
+    let is_finite = companion.iter().all(|x| x.is_finite());
+    let mut found = spectrum(&companion).filter(|_| is_finite)?;
+    found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+    Some(found)
+}
+
+/// A matrix on what is left beside so many of its zero eigenvalues: each has a left null vector, and what is orthogonal to that the matrix maps into
+/// itself. So a zero is split off to rounding, where one of a chain of length k is computed to the k-th root of rounding.
+pub fn beside_zeros(matrix: &DMatrix<f64>, zeros: usize) -> Option<DMatrix<f64>> {
+    let mut own = matrix.clone();
+    for _ in 0..zeros {
+        let Some(count) = own.nrows().checked_sub(1) else {
+            break;
+        };
+        let left = singular(&own)?.left;
+        let range = left.columns(0, count);
+        own = range.tr_mul(&(own * range));
+    }
+    Some(own)
 }
 
 /// Steps of the QR method for each eigenvalue: some two are usual.
@@ -29,6 +86,9 @@ const BEGINNINGS: usize = 40;
 ///
 /// The QR method is accurate to rounding of the largest entry, whatever the units of the variables: those are chosen first.
 pub(crate) fn spectrum(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    if matrix.is_empty() {
+        return Some(Vec::new());
+    }
     let Balanced { matrix, unit, .. } = balanced(matrix);
     let (n, size) = (matrix.nrows(), matrix.norm());
     let mut own = matrix;
@@ -77,9 +137,20 @@ pub fn power_of_two(size: f64) -> f64 {
     }
 }
 
-/// The eigenvalues of A, imaginary parts zero or positive and each once, at which the rank of `[λ − A, B]` is smaller than the number of rows to
-/// rounding: the inputs do not reach their modes (Hautus 1969).
-pub fn unreached(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<Complex<f64>>> {
+/// An eigenvalue with modes that no input reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unreached {
+    /// λ, its imaginary part zero or positive.
+    pub eigenvalue: Complex<f64>,
+    /// How many of its modes are not reached.
+    pub count: usize,
+    /// How many modes it has.
+    pub modes: usize,
+}
+
+/// The eigenvalues of A, each once, at which the rank of `[λ − A, B]` is smaller than the number of rows to rounding: by as many dimensions the
+/// inputs do not reach their modes (Hautus 1969).
+pub fn unreached(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<Unreached>> {
     let n = a.len();
     let inputs = b.first().map_or(0, Vec::len);
     let a = DMatrix::from_row_iterator(n, n, a.iter().flatten().copied());
@@ -88,14 +159,18 @@ pub fn unreached(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<Complex<f64>>> {
         return None;
     }
     let own = balanced(&a);
+    let size = Some(own.matrix.norm())
+        .filter(|own| *own > 0.0)
+        .unwrap_or(1.0);
     let mut b = DMatrix::from_fn(n, inputs, |r, c| b[(r, c)] / own.scale[r]);
     for mut column in b.column_iter_mut() {
-        let size = column.norm();
-        if size > 0.0 {
-            column /= size;
+        let length = column.norm();
+        if length > 0.0 {
+            column *= size / length;
         }
     }
-    let distance = |l: &Complex<f64>| {
+    // By how much the rank of the first columns of [λ − A, B] is smaller than the number of rows.
+    let lost = |l: &Complex<f64>, columns: usize| {
         let entry = |r: usize, c: usize| {
             let known = if c < n {
                 -own.matrix[(r, c)]
@@ -109,19 +184,43 @@ pub fn unreached(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<Complex<f64>>> {
             };
             shift + known
         };
-        let found = singular(&DMatrix::from_fn(n, n + inputs, entry));
+        let found = singular(&DMatrix::from_fn(n, columns, entry));
         // Filled up to a square, it has one more zero for each input.
-        found.map_or(f64::NAN, |own| own.values[n - 1])
+        let values = found.map(|own| own.values).unwrap_or_default();
+        values
+            .iter()
+            .take(n)
+            .filter(|s| **s <= UNREACHED * size)
+            .count()
     };
     let mut all = spectrum(&a)?;
-    all.retain(|l| l.im >= 0.0 && distance(l) < UNREACHED);
-    all.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
-    let size = own.unit * own.matrix.norm();
-    all.dedup_by(|a, b| (*a - *b).norm() <= UNREACHED * size);
-    Some(all)
+    all.retain(|l| l.im >= 0.0 && lost(l, n + inputs) > 0);
+    let all = distinct(&all, UNREACHED * size * own.unit).into_iter();
+    let found = all.map(|(eigenvalue, _)| Unreached {
+        eigenvalue,
+        count: lost(&eigenvalue, n + inputs),
+        modes: lost(&eigenvalue, n).max(1),
+    });
+    Some(found.collect())
 }
 
-/// A distance from lower rank below this, in units of the matrix, is rounding.
+/// Eigenvalues each once, with how many are the same to a distance; ascending.
+pub fn distinct(all: &[Complex<f64>], distance: f64) -> Vec<(Complex<f64>, usize)> {
+    let mut found: Vec<(Complex<f64>, usize)> = Vec::new();
+    for own in all {
+        match found
+            .iter_mut()
+            .find(|known| (known.0 - own).norm() <= distance)
+        {
+            Some(known) => known.1 += 1,
+            None => found.push((*own, 1)),
+        }
+    }
+    found.sort_by(|(a, _), (b, _)| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+    found
+}
+
+/// A distance from lower rank below this, in parts of the matrix, is rounding.
 const UNREACHED: f64 = 1e-8;
 
 /// A = E⁻¹F.
@@ -149,13 +248,13 @@ pub fn matrix(left: &[Vec<f64>], right: &[Vec<f64>]) -> Option<DMatrix<f64>> {
     found.iter().all(|x| x.is_finite()).then_some(found)
 }
 
-/// The mode of an eigenvalue: the vector z of length 1 for which `(λE − F) z` vanishes, to rounding in suitable units of the variables, its
-/// largest entry real and positive.
-pub fn mode(
+/// The modes of an eigenvalue, at most as many as its multiplicity: vectors z of length 1 for which `(λE − F) z` vanishes, to rounding in suitable
+/// units of the variables, their largest entries real and positive. Of several each is zero where another one is largest.
+pub fn modes(
     left: &[Vec<f64>],
     right: &[Vec<f64>],
-    eigenvalue: Complex<f64>,
-) -> Option<Vec<Complex<f64>>> {
+    (eigenvalue, multiplicity): (Complex<f64>, usize),
+) -> Option<Vec<Vec<Complex<f64>>>> {
     let Balanced {
         matrix,
         scale,
@@ -170,11 +269,61 @@ pub fn mode(
             own
         }
     };
-    let right = singular(&DMatrix::from_fn(n, n, entry))?.right;
-    let smallest = right.column(n.checked_sub(1)?);
-    let vector: Vec<Complex<f64>> = smallest.iter().zip(&scale).map(|(z, d)| z * *d).collect();
-    let largest = vector.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-    let length = vector.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
-    let turn = largest.conj() / (largest.norm() * length);
-    Some(vector.iter().map(|z| z * turn).collect())
+    let found = singular(&DMatrix::from_fn(n, n, entry))?;
+    let least = UNREACHED * matrix.norm();
+    let vanishing = found.values.iter().filter(|s| **s <= least).count();
+    let count = vanishing.clamp(1, multiplicity.max(1)).min(n);
+    let mut basis = found.right.columns(n - count, count).into_owned();
+    if count > 1 {
+        separate(&mut basis);
+    }
+    let of = |column: usize| {
+        let mut entries = basis.column(column).into_owned();
+        // In other units what is rounding here may be large.
+        let least = ROUNDED * entries.camax();
+        for entry in entries.iter_mut().filter(|z| z.norm() < least) {
+            *entry = Complex::new(0.0, 0.0);
+        }
+        let vector: Vec<Complex<f64>> = entries.iter().zip(&scale).map(|(z, d)| z * *d).collect();
+        let largest = vector.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let length = vector.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+        let turn = largest.conj() / (largest.norm() * length);
+        Some(vector.iter().map(|z| z * turn).collect())
+    };
+    (0..count).map(of).collect()
+}
+
+/// An entry below this part of the largest is rounding.
+const ROUNDED: f64 = 1e-13;
+
+/// Another basis of the same space: each vector with a 1 where all others have a zero, in the order of these places.
+fn separate(basis: &mut DMatrix<Complex<f64>>) {
+    let (n, count) = basis.shape();
+    let mut places: Vec<(usize, usize)> = Vec::new();
+    for _ in 0..count {
+        let is_free = |own: &(usize, usize)| places.iter().all(|p| p.0 != own.0 && p.1 != own.1);
+        let entries = (0..n).flat_map(|r| (0..count).map(move |c| (r, c)));
+        let size = |own: &(usize, usize)| basis[*own].norm();
+        let Some(place) = entries
+            .filter(is_free)
+            .max_by(|a, b| size(a).total_cmp(&size(b)))
+        else {
+            return;
+        };
+        let pivot = basis[place];
+        let own = basis.column(place.1) / pivot;
+        for c in 0..count {
+            let by = basis[(place.0, c)];
+            let rest = if c == place.1 {
+                own.clone()
+            } else {
+                basis.column(c) - &own * by
+            };
+            basis.set_column(c, &rest);
+        }
+        places.push(place);
+    }
+    places.sort_unstable();
+    let order: Vec<usize> = places.iter().map(|own| own.1).collect();
+    *basis = basis.select_columns(&order);
 }

@@ -122,6 +122,8 @@ fn length(number: &RBig) -> usize {
 pub enum Crossing {
     /// A real eigenvalue passes through zero.
     Zero,
+    /// An eigenvalue is zero, on both sides of that value the stability is the same, and the product of all has one sign: none passes, or several do at once.
+    ZeroTouching,
     /// A pair of eigenvalues passes the imaginary axis.
     Pair,
     /// Several pairs of eigenvalues are on the imaginary axis at once.
@@ -252,6 +254,7 @@ pub(crate) fn ranges_within(
         });
     }
     name_pairs(&mut boundaries, &regions);
+    range.name_zeros(polynomials, &mut boundaries, &regions);
     Some(Ranges {
         boundaries,
         regions,
@@ -314,6 +317,25 @@ impl Over<'_> {
             all.extend(pairs);
         }
         Some(([vec![leading], list].concat(), all))
+    }
+
+    /// Where the constant coefficient vanishes without a change of its sign, nor of the stability, as at a double zero of it, nothing needs to pass.
+    fn name_zeros(&self, polynomials: &[Deciding], all: &mut [Boundary], regions: &[Region]) {
+        for boundary in all.iter_mut().filter(|b| b.crossing == Crossing::Zero) {
+            let Some([before, after]) = beside(boundary, regions) else {
+                continue;
+            };
+            let is_same = |own: &Deciding| {
+                let sign = |region: &Region| {
+                    let constant = *own.coefficients.first()?;
+                    sign_at(self.g, constant, self.symbol, &region.sample)
+                };
+                sign(before).is_some_and(|own| Some(own) == sign(after))
+            };
+            if before.is_left == after.is_left && polynomials.iter().all(is_same) {
+                boundary.crossing = Crossing::ZeroTouching;
+            }
+        }
     }
 
     /// Whether a polynomial, given by its leading coefficient and its determinants, has all zeros left of the axis. Where the leading
@@ -387,15 +409,18 @@ fn name_pairs(boundaries: &mut [Boundary], regions: &[Region]) {
             Crossing::Pair | Crossing::Pairs | Crossing::Collision
         )
     }) {
-        let before = regions.iter().rfind(|r| r.high <= boundary.root.low);
-        let after = regions.iter().find(|r| r.low >= boundary.root.high);
-        let changes = before
-            .zip(after)
-            .is_some_and(|(a, b)| a.is_left != b.is_left);
+        let changes = beside(boundary, regions).is_some_and(|[a, b]| a.is_left != b.is_left);
         if !changes {
             boundary.crossing = Crossing::Touching;
         }
     }
+}
+
+/// The regions on both sides of a boundary.
+fn beside<'r>(boundary: &Boundary, regions: &'r [Region]) -> Option<[&'r Region; 2]> {
+    let before = regions.iter().rfind(|r| r.high <= boundary.root.low)?;
+    let after = regions.iter().find(|r| r.low >= boundary.root.high)?;
+    Some([before, after])
 }
 
 impl Ranges {

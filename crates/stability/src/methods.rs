@@ -9,6 +9,7 @@ mod first_approximation;
 mod higher_variation;
 mod imaginary_pair;
 mod integral_bundle;
+mod linear_equations;
 mod reversal;
 mod zero_eigenvalue;
 
@@ -24,4 +25,5 @@ pub(crate) static METHODS: &[&dyn Method] = &[
     &double_zero::DoubleZero,
     &imaginary_pair::ImaginaryPair,
     &drift::Drift,
+    &linear_equations::LinearEquations,
 ];

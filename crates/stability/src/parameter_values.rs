@@ -1,5 +1,6 @@
 //! Values of the parameters of a system, with some of them left in.
 
+use chetaev_mechanics::system::Parameter;
 use chetaev_mechanics::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -64,4 +65,45 @@ fn with_values(system: &System, e: Expr, over: &[Symbol]) -> Expr {
         .filter(|(s, _)| !g.as_symbol(*s).is_some_and(|s| over.contains(&s)))
         .collect();
     g.substitute(e, &values)
+}
+
+/// The names of the parameters without a value that occur in functions: what is said by these speaks of general values of them.
+pub fn general_parameters(system: &System, functions: &[Expr]) -> Vec<String> {
+    let g = &system.graph;
+    let is_open = |own: &&Parameter| {
+        let symbol = g.as_symbol(own.expr);
+        own.value.is_none() && symbol.is_some_and(|s| g.any_contains_any(functions, &[s]))
+    };
+    let open = system.parameters.iter().filter(is_open);
+    open.map(|own| own.name.clone()).collect()
+}
+
+/// For which values of the parameters something is said, given those that are general.
+pub(crate) fn for_which(general: &[String]) -> String {
+    match general {
+        [] => "for the values of the parameters that are stated".into(),
+        names => format!(
+            "for general values of {}, others as stated; special values are not asked",
+            names.join(", ")
+        ),
+    }
+}
+
+/// What is said, with the parameters of which it is said in general.
+pub(crate) fn of_general(said: String, general: &[String]) -> String {
+    match general {
+        [] => said,
+        names => format!("{said}; {}", for_which(names)),
+    }
+}
+
+/// What a model states of motions: L, forces, constraints and laws of controls, with the definitions that they use.
+pub fn stated_functions(system: &System) -> Vec<Expr> {
+    let constraints = system.constraints.iter().map(|own| own.stated);
+    let laws = system.controls.iter().filter_map(|own| own.law);
+    let all = std::iter::once(system.lagrangian)
+        .chain(system.forces.iter().copied())
+        .chain(constraints)
+        .chain(laws);
+    all.map(|e| system.with_definitions(e)).collect()
 }

@@ -3,12 +3,15 @@
 
 use crate::admissible_values::AdmissibleValues;
 use crate::characteristic::Characteristic;
+use crate::eigenvalues::Known;
 use crate::enclosure::is_right_of_axis_at;
 use crate::expansion::Expansion;
 use crate::hurwitz::{are_positive, determinants, ranges, ranges_within, Deciding, Ranges};
 use crate::isolation::Root;
 use crate::linearization::{Linearization, LinearizationError};
-pub use crate::parameter_values::{values_at, values_but, values_but_these};
+pub use crate::parameter_values::{
+    general_parameters, stated_functions, values_at, values_but, values_but_these,
+};
 pub use crate::real_roots::bound_of;
 use crate::real_roots::{real_roots, sign_at, sign_of};
 use crate::spectrum::Spectrum;
@@ -83,6 +86,32 @@ impl Question {
     pub fn zeros(&self) -> usize {
         let polynomial = self.polynomial.as_ref();
         polynomial.map_or(0, |own| own.zeros + own.further_zeros)
+    }
+
+    /// What is known exactly of the eigenvalues at these values of the parameters: how many are zero, and which are multiple.
+    pub fn known(&self, g: &Graph, values: &[(Expr, Expr)]) -> Known {
+        let Some(polynomial) = &self.polynomial else {
+            return Known {
+                zeros: self.linear.family,
+                multiple: Vec::new(),
+            };
+        };
+        let there = polynomial.at(g, values);
+        let is_same = there.coefficients == polynomial.coefficients;
+        let spectrum = if is_same {
+            self.spectrum.clone()
+        } else {
+            Spectrum::of(g, &there)
+        };
+        let multiple = spectrum.factors.into_iter().filter(|own| own.1 > 1);
+        let in_numbers = |(factor, power): (Vec<Expr>, u32)| {
+            let numbers = g.evaluate_f64(&factor, &|_| None).ok()?;
+            Some((numbers, power as usize))
+        };
+        Known {
+            zeros: there.zeros + there.further_zeros,
+            multiple: multiple.filter_map(in_numbers).collect(),
+        }
     }
 
     /// What the eigenvalues do where the deciding polynomials have, or have not, all zeros left of the axis.

@@ -18,8 +18,10 @@ pub struct SteadySet {
     pub ignorable: Vec<String>,
     /// The motions: isolated ones first, then families by their dimension.
     pub found: Vec<Found>,
-    /// Functions in denominators: where one vanishes the equations are not defined, and nothing is said.
+    /// Functions in denominators: where one vanishes no choice of independent velocities that was tried serves, and nothing is said.
     pub excluded: Vec<Expr>,
+    /// Functions at whose zeros what the model states has no value, so that there are no states of the system.
+    pub poles: Vec<Expr>,
     /// Whether the gradients of the constraints are proved independent everywhere; else nothing is said where they are not.
     pub has_full_rank: bool,
 }
@@ -48,14 +50,23 @@ pub struct Found {
 }
 
 impl SteadySet {
+    /// Whether all motions are among those found: nothing is said of no state of the system.
+    pub fn is_complete(&self) -> bool {
+        self.excluded.is_empty() && self.has_full_rank
+    }
+
     /// Of which states nothing is said, a clause for each kind.
     pub fn left_out(&self, g: &Graph) -> Vec<String> {
-        let excluded = self.excluded.iter();
-        let mut all: Vec<String> = excluded
-            .map(|&e| match g.text(e) {
-                text if text.len() <= LONGEST => format!(
-                    "nothing is said where {text} vanishes: the equations are not defined there"
-                ),
+        let undefined = "the equations are not defined there";
+        let unseen = "the independent velocities that were tried do not serve there";
+        let poles = self.poles.iter().map(|e| (e, undefined));
+        let excluded = self.excluded.iter().map(|e| (e, unseen));
+        let mut all: Vec<String> = poles
+            .chain(excluded)
+            .map(|(&e, why)| match g.text(e) {
+                text if text.len() <= LONGEST => {
+                    format!("nothing is said where {text} vanishes: {why}")
+                }
                 text => format!(
                     "nothing is said where a function of {} signs vanishes, by which was divided",
                     text.len()

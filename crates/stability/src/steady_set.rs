@@ -7,7 +7,7 @@
 
 use crate::branch::{Branch, Chain};
 use crate::charts::{is_assumed, other_charts, union};
-use crate::left_out::vanish_nowhere;
+use crate::left_out::{is_pole, vanish_nowhere};
 use crate::reduction::Speeds;
 use crate::semidefinite::RealParts;
 use crate::steady::closed;
@@ -102,6 +102,8 @@ fn all_with(
         }
     }
     sort(&mut set.found);
+    let excluded = std::mem::take(&mut set.excluded).into_iter();
+    (set.poles, set.excluded) = excluded.partition(|&e| is_pole(system, e, values));
     Ok(set)
 }
 
@@ -185,6 +187,7 @@ fn in_chart(
         ignorable: equations.ignorable(),
         found,
         excluded: excluded(&field, &denominators, &symbols)?,
+        poles: Vec::new(),
         has_full_rank: equations.has_full_rank(terms, selection),
     })
 }

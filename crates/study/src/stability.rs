@@ -20,20 +20,20 @@ use chetaev_mechanics::system::QuasiVelocity;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::descriptor::Descriptor;
-use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
+use chetaev_stability::eigenvalues::{as_known, distinct, modes, Complex, Known};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
 use chetaev_stability::hurwitz::Ranges;
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::parts::Parts;
-use chetaev_stability::question::{parameter_of_motion, values_but, Question};
+use chetaev_stability::question::{parameter_of_motion, values_at, values_but, Question};
 use chetaev_stability::reduction::{may_be_speeds, Speeds};
 use chetaev_stability::state_space::StateSpace;
 use chetaev_stability::steady_set::{steady_set, SteadySet, SteadySetError};
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
-/// Eigenvalues that differ by less, in parts of the largest, are one for the table of modes.
+/// Eigenvalues that differ by less, in parts of the largest, are one for the table of modes; which of them are multiple is known exactly.
 const SAME: f64 = 1e-9;
 
 /// Rows of the table of eigenvalues over a range.
@@ -81,6 +81,8 @@ pub struct Range {
 pub struct Mode {
     /// λ.
     pub eigenvalue: (f64, f64),
+    /// How often it is one: with fewer modes it has a Jordan block.
+    pub multiplicity: usize,
     /// z, of length 1, its largest entry real and positive.
     pub vector: Vec<(f64, f64)>,
 }
@@ -558,71 +560,92 @@ impl Stability {
             .collect()
     }
 
-    /// The eigenvalues as pairs of real and imaginary parts, at a value of the parameter that was left in.
+    /// The eigenvalues as pairs of real and imaginary parts, at a value of the parameter that was left in; those that are zero whatever it is are so
+    /// exactly.
     pub fn eigenvalues(&self, free: Option<f64>) -> Option<Vec<(f64, f64)>> {
+        let polynomial = self.question.polynomial.as_ref();
+        let known = Known {
+            zeros: polynomial.map_or(self.question.linear.family, |_| self.question.zeros()),
+            multiple: Vec::new(),
+        };
+        let found = self.complex_eigenvalues(free, &known)?;
+        Some(found.iter().map(|l| (l.re, l.im)).collect())
+    }
+
+    /// The same at an exact value, where all that is known of them is used: which are zero there, and which are multiple.
+    pub fn eigenvalues_at(&self, at: Option<Expr>) -> Option<Vec<(f64, f64)>> {
+        let found = self.complex_eigenvalues(self.number(at), &self.known(at))?;
+        Some(found.iter().map(|l| (l.re, l.im)).collect())
+    }
+
+    fn complex_eigenvalues(&self, free: Option<f64>, known: &Known) -> Option<Vec<Complex<f64>>> {
         let linear = &self.question.linear;
-        let (left, right) = (
-            self.numbers(&linear.left, free),
-            self.numbers(&linear.right, free),
-        );
-        Some(
-            eigenvalues(&left, &right)?
-                .iter()
-                .map(|l| (l.re, l.im))
-                .collect(),
-        )
+        let [left, right] = [&linear.left, &linear.right].map(|rows| self.numbers(rows, free));
+        as_known(&left, &right, known)
+    }
+
+    /// What is known exactly of the eigenvalues at a value of the parameter that was left in.
+    fn known(&self, at: Option<Expr>) -> Known {
+        let values = match self.question.over.zip(at) {
+            Some((over, at)) => values_at(&self.system, over, at),
+            None => self.system.parameter_values(),
+        };
+        self.question.known(self.graph(), &values)
+    }
+
+    fn number(&self, at: Option<Expr>) -> Option<f64> {
+        let found = self.graph().evaluate_f64(&[at?], &|_| None).ok()?;
+        found.first().copied()
     }
 
     /// The value that the model states for the parameter that was left in.
     pub(crate) fn stated(&self) -> Option<f64> {
-        let g = self.graph();
-        let over = self.question.over?;
-        let own = self
-            .system
-            .parameters
-            .iter()
-            .find(|p| g.as_symbol(p.expr) == Some(over))?;
-        g.evaluate_f64(&[own.value?], &|_| None)
-            .ok()
-            .map(|found| found[0])
+        self.number(self.stated_exactly())
     }
 
-    /// Eigenvalues with imaginary part zero or positive, each with its mode; none where a parameter has no value.
+    /// The same, exact.
+    pub(crate) fn stated_exactly(&self) -> Option<Expr> {
+        let over = self.question.over?;
+        let mut all = self.system.parameters.iter();
+        let own = all.find(|p| self.graph().as_symbol(p.expr) == Some(over))?;
+        own.value
+    }
+
+    /// Eigenvalues with imaginary part zero or positive, each with its modes; none where a parameter has no value.
     pub fn modes(&self) -> Vec<Mode> {
-        let (at, linear) = (self.stated(), &self.question.linear);
-        let (left, right) = (
-            self.numbers(&linear.left, at),
-            self.numbers(&linear.right, at),
-        );
-        let found = eigenvalues(&left, &right).unwrap_or_default();
-        let mut found: Vec<Complex<f64>> = found.into_iter().filter(|l| l.im >= 0.0).collect();
-        // Of eigenvalues that are the same to rounding one is shown.
-        let size = found
-            .iter()
-            .map(|l| l.norm())
-            .fold(f64::MIN_POSITIVE, f64::max);
-        found.dedup_by(|a, b| (*a - *b).norm() <= SAME * size);
+        let (at, linear) = (self.stated_exactly(), &self.question.linear);
+        let stated = self.number(at);
+        let [left, right] = [&linear.left, &linear.right].map(|rows| self.numbers(rows, stated));
+        let found = as_known(&left, &right, &self.known(at)).unwrap_or_default();
+        let found: Vec<Complex<f64>> = found.into_iter().filter(|l| l.im >= 0.0).collect();
+        let sizes = found.iter().map(|l| l.norm());
+        let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
         let pair = |l: &Complex<f64>| (l.re, l.im);
-        let with_mode = |l: Complex<f64>| {
-            let mode = mode(&left, &right, l)?;
-            Some(Mode {
+        let with_modes = |(l, multiplicity): (Complex<f64>, usize)| {
+            let vectors = modes(&left, &right, (l, multiplicity)).unwrap_or_default();
+            let mode = move |vector: Vec<Complex<f64>>| Mode {
                 eigenvalue: pair(&l),
-                vector: mode.iter().map(pair).collect(),
-            })
+                multiplicity,
+                vector: vector.iter().map(pair).collect(),
+            };
+            vectors.into_iter().map(mode)
         };
-        found.into_iter().filter_map(with_mode).collect()
+        // Eigenvalues that are the same to rounding are one.
+        let found = distinct(&found, SAME * size).into_iter();
+        found.flat_map(with_modes).collect()
     }
 
     fn table(&self, range: &Range) -> Vec<(f64, Vec<(f64, f64)>)> {
         // Exact, so that -1/5 is written as -0.2.
         let at = |row: usize| {
             let part = Rational::from(row) / Rational::from(ROWS - 1);
-            let value = &range.low + (&range.high - &range.low) * part;
-            value.to_f64().value()
+            &range.low + (&range.high - &range.low) * part
         };
-        let rows = (0..ROWS).map(|row| (at(row), self.eigenvalues(Some(at(row)))));
-        rows.filter_map(|(value, list)| Some((value, list?)))
-            .collect()
+        let row = |at: Rational| {
+            let list = self.eigenvalues_at(Some(self.graph().number(at.clone())))?;
+            Some((at.to_f64().value(), list))
+        };
+        (0..ROWS).map(at).filter_map(row).collect()
     }
 }
 

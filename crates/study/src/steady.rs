@@ -14,6 +14,7 @@ use crate::stability::error::StabilityError;
 use crate::start;
 use chetaev_mechanics::System;
 use chetaev_model::Model;
+use chetaev_stability::question::{general_parameters, stated_functions};
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -25,7 +26,7 @@ pub struct Steady {
     pub system: System,
     /// Which.
     pub motions: Motions,
-    /// Whether parameters stayed symbols, so that their values are in general position.
+    /// Whether parameters stayed symbols, or have no value, so that they are in general position.
     pub is_symbolic: bool,
 }
 
@@ -60,10 +61,11 @@ pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, FollowError> {
         }
         Err(why) => Motions::Near(Box::new(search::search(model, (&system, &prepared), why)?)),
     };
+    let general = general_parameters(&system, &stated_functions(&system));
     Ok(Steady {
         motions,
+        is_symbolic: is_symbolic || !general.is_empty(),
         system,
-        is_symbolic,
     })
 }
 
@@ -105,13 +107,27 @@ impl Steady {
         text
     }
 
-    fn completeness(&self, set: &SteadySet) -> &'static str {
-        match (set.found.is_empty(), self.is_symbolic) {
-            (true, _) if !set.excluded.is_empty() => "None was found where the equations are defined: they are polynomial in the variables, their sines and cosines, and were solved exactly.",
-            (true, _) => "There are none: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
-            (false, false) => "These are all: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
-            (false, true) => "These are all for parameters in general position: the equations are polynomial in the variables, their sines and cosines, and were solved exactly. For special values there may be others.",
-        }
+    fn completeness(&self, set: &SteadySet) -> String {
+        let general = if self.is_symbolic {
+            " for parameters in general position"
+        } else {
+            ""
+        };
+        let said = match (set.found.is_empty(), set.is_complete()) {
+            (true, false) => "None was found where nothing is left out",
+            (true, true) if !set.poles.is_empty() => {
+                "None was found where the equations are defined"
+            }
+            (true, true) => "There are none",
+            (false, false) => "These are all where nothing is left out",
+            (false, true) => "These are all",
+        };
+        let others = if self.is_symbolic {
+            " For special values there may be others."
+        } else {
+            ""
+        };
+        format!("{said}{general}: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.{others}")
     }
 
     /// The motions as data.
@@ -161,10 +177,10 @@ impl Steady {
             "variables": set.variables,
             "speeds": set.speeds.iter().map(|(name, e)| json!({"name": name, "definition": text(e)})).collect::<Vec<_>>(),
             "ignorable": set.ignorable,
-            "complete": true,
+            "complete": set.is_complete(),
             "general_position": self.is_symbolic,
             "full_rank": set.has_full_rank,
-            "excluded": texts(&set.excluded),
+            "excluded": texts(&[set.poles.clone(), set.excluded.clone()].concat()),
             "motions": set.found.iter().map(motion).collect::<Vec<_>>(),
         })
     }

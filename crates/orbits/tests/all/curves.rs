@@ -576,3 +576,49 @@ fn a_fold_at_all_lengths() {
         }
     }
 }
+
+/// What is zero at every value of the parameter passes nothing there. Two masses 1 and 2 with a spring k = p between them move freely together:
+/// λ² (2 λ² + 3 c λ + 3 p) has the double zero of a chain, and its others are zero at p = 0 alone; x'' = −p x' + x³ has the zero of a motion that is
+/// no member of a family. Beside the chain an oscillator of stiffness p passes zero at p = 0, from either side and at the start itself.
+#[test]
+fn zeros_along_the_whole_curve_pass_nothing() {
+    let free = |c: f64, more: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\", \"s\"]\nparameters = {{ p = 1 }}\n[lagrangian]\nL = \"1/2 x'^2 + y'^2 + 1/2 s'^2 - {more}\"\n[forces]\nx = \"-{c} (x' - y')\"\ny = \"-{c} (y' - x')\"\ns = \"-s'\"\n"
+        )
+    };
+    let state = [
+        ("x", 0.0),
+        ("y", 0.0),
+        ("s", 0.0),
+        ("x'", 0.0),
+        ("y'", 0.0),
+        ("s'", 0.0),
+    ];
+    for c in [0.0, 0.1] {
+        let spring = free(c, "1/2 p (y - x)^2 - 1/2 s^2");
+        assert_eq!(happens(&spring, &state, (1.0, 2.0)), [], "c = {c}");
+        let beside = free(c, "1/2 (y - x)^2 - 1/2 p s^2");
+        for range in [(-1.0, 2.0), (-1.0, 0.0), (-0.7, 0.1)] {
+            let found = happens(&beside, &state, range);
+            if range.1 == 0.0 {
+                assert!(found.len() <= 1, "{found:?}");
+                continue;
+            }
+            assert_eq!(found.len(), 1, "c = {c}: {found:?}");
+            assert_eq!(found[0].0, Kind::BranchPoint);
+            is_close(found[0].1, 0.0, 1e-12);
+        }
+    }
+    // They are among the eigenvalues, beside a pair on the axis.
+    let (flow, _) = flow(&free(0.0, "1/2 p (y - x)^2 - 1/2 s^2"), &state);
+    let found = curve(&flow, "p", (&[0.0; 6], 1.0), (1.0, 2.0), points(300));
+    for point in &found.points {
+        let values = &point.spectrum.values;
+        let zeros = values.iter().filter(|l| l.norm() == 0.0).count();
+        assert_eq!((values.len(), zeros, found.family), (5, 1, 1), "{values:?}");
+    }
+    let alone = "coordinates = [\"x\"]\nparameters = { p = 1 }\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"-p x' + x^3\"\n";
+    let found = happens(alone, &[("x", 0.0), ("x'", 0.0)], (0.5, 1.5));
+    assert_eq!(found, []);
+}

@@ -11,7 +11,7 @@ use chetaev_mechanics::{Prepared, System};
 use chetaev_model::load;
 use chetaev_orbits::along::along;
 use chetaev_orbits::mode::{Deviation, LinearMotion};
-use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
+use chetaev_stability::eigenvalues::{eigenvalues, modes, Complex};
 use chetaev_stability::linearization::linearize;
 use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
@@ -63,7 +63,7 @@ fn linear(text: &str) -> (LinearMotion, Vec<ModeOf>) {
     };
     let (left, right) = (numbers(&own.left), numbers(&own.right));
     let modes = eigenvalues(&left, &right).unwrap().into_iter().map(|l| {
-        let vector = mode(&left, &right, l).unwrap();
+        let vector = modes(&left, &right, (l, 1)).unwrap().remove(0);
         (l, vector.iter().map(|z| (z.re, z.im)).collect())
     });
     let modes = modes.collect();

@@ -48,9 +48,13 @@ impl Statement for Asymptotic {
             None => holds_beside.then_some(true),
             Some(Crossing::Pair | Crossing::Pairs | Crossing::Collision) => Some(false),
             // A zero may be that of a family that is there for this value alone.
-            Some(Crossing::Zero | Crossing::Infinity | Crossing::Singular | Crossing::Touching) => {
-                None
-            }
+            Some(
+                Crossing::Zero
+                | Crossing::ZeroTouching
+                | Crossing::Infinity
+                | Crossing::Singular
+                | Crossing::Touching,
+            ) => None,
         }
     }
 

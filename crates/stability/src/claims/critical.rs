@@ -96,7 +96,7 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
     for boundary in over.ranges.boundaries.iter().filter(is_admitted) {
         match over.change(boundary) {
             Change::Is(how) => listed.push(format!("{} ({how})", over.place(boundary))),
-            Change::Perhaps => open.push(over.place(boundary)),
+            Change::Perhaps(sides) => open.push((sides, over.place(boundary))),
             Change::Without(how) => {
                 without_change.push(format!("{how} at {}", over.place(boundary)));
             }
@@ -123,12 +123,20 @@ fn changes(cx: &Context<'_>, name: &str) -> Option<String> {
             without_change.join(", ")
         );
     }
-    if !open.is_empty() {
-        let _ = write!(
-            said,
-            "; on both sides of {} it is the same, and of that value alone nothing is said",
-            open.join(" and of ")
-        );
+    for (sides, what) in [
+        ("on both sides", "; on both sides of "),
+        ("below", "; below "),
+        ("above", "; above "),
+    ] {
+        let of = open.iter().filter(|own| own.0 == sides);
+        let of: Vec<&str> = of.map(|own| own.1.as_str()).collect();
+        if !of.is_empty() {
+            let _ = write!(
+                said,
+                "{what}{} it is the same, and of that value alone nothing is said",
+                of.join(" and of ")
+            );
+        }
     }
     Some(said)
 }
@@ -153,8 +161,8 @@ enum Change {
     Is(String),
     /// Something happens, and the stability is the same there and on both sides.
     Without(String),
-    /// It may be another at that value alone.
-    Perhaps,
+    /// It may be another at that value alone, beside these.
+    Perhaps(&'static str),
     /// It is the same there and on both sides.
     None,
 }
@@ -168,38 +176,40 @@ impl Over<'_, '_> {
         let after = regions.iter().find(|r| r.low >= root.high);
         let after = after.filter(|own| self.is_admitted_above(&root.high, &own.high));
         let (before, after) = (before.map(place), after.map(place));
-        // Where the motion begins or ends there is no change of its stability.
-        if before.is_none() || after.is_none() {
-            return Change::None;
-        }
         let how = how(boundary.crossing);
-        if before != after {
-            return Change::Is(format!("{how}{}", towards(before, after)));
-        }
-        let is_unstable = before == Some(Place::Right)
-            && self.about.question.is_unstable_at(self.about.graph(), root);
+        // What ends, or is left out, has values on one side.
+        let (beside, sides) = match (before, after) {
+            (Some(a), Some(b)) if a != b => {
+                return Change::Is(format!("{how}{}", towards(before, after)));
+            }
+            (Some(beside), Some(_)) => (beside, "on both sides"),
+            (Some(beside), None) => (beside, "below"),
+            (None, Some(beside)) => (beside, "above"),
+            (None, None) => return Change::None,
+        };
+        let same = |said: String| match boundary.crossing {
+            Crossing::Touching => Change::None,
+            // Nothing passes where there is no other side.
+            _ if before.is_none() || after.is_none() => Change::None,
+            _ => Change::Without(format!("{how}, {said}")),
+        };
+        let is_unstable =
+            beside == Place::Right && self.about.question.is_unstable_at(self.about.graph(), root);
         if is_unstable {
-            return match boundary.crossing {
-                Crossing::Touching => Change::None,
-                _ => Change::Without(format!("{how}, unstable on both sides and there,")),
-            };
+            return same("unstable on both sides and there,".into());
         }
         // What is unstable on both sides may stand on the axis between, as a body at rest that no spin makes stable.
         let there = self
             .exact(boundary)
             .and_then(|at| place_exactly(self.cx, self.about, (self.symbol, at)));
-        match (there, before) {
-            (Some(there), Some(beside)) if there == beside => match boundary.crossing {
-                Crossing::Touching => Change::None,
-                _ => Change::Without(format!("{how}, {} on both sides and there,", word(beside))),
-            },
-            (Some(Place::NotLeft) | None, _) | (_, None) => match boundary.crossing {
-                Crossing::Touching => Change::Perhaps,
-                _ if before.is_some() && before == after => Change::Perhaps,
-                _ => Change::Is(how.into()),
-            },
-            (Some(there), Some(beside)) => Change::Is(format!(
-                "{} there alone, {} on both sides",
+        match there {
+            Some(there) if there == beside => {
+                same(format!("{} on both sides and there,", word(beside)))
+            }
+            None => Change::Perhaps(sides),
+            Some(Place::NotLeft) if beside != Place::Left => Change::Perhaps(sides),
+            Some(there) => Change::Is(format!(
+                "{} there alone, {} {sides}",
                 word(there),
                 word(beside)
             )),
@@ -303,6 +313,7 @@ fn word(place: Place) -> &'static str {
 fn how(crossing: Crossing) -> &'static str {
     match crossing {
         Crossing::Zero => "an eigenvalue passes through zero",
+        Crossing::ZeroTouching => "an eigenvalue is zero",
         Crossing::Pair => "a pair passes the imaginary axis",
         Crossing::Pairs => "several pairs are on the imaginary axis at once",
         Crossing::Infinity => "an eigenvalue goes to infinity",

@@ -1,7 +1,7 @@
 //! All states of rest, and all steady motions, of a system.
 
 use super::stated::refused;
-use crate::left_out::is_pole;
+use crate::parameter_values::{for_which, general_parameters, of_general, stated_functions};
 use crate::steady_motions::{Found, SteadySet};
 use crate::steady_set::{all_of, Sought};
 use crate::steady_value::SteadySetError;
@@ -75,18 +75,17 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
     match found {
         Ok(Ok(set)) => {
             let g = &system.graph;
-            let said = listed(g, &set, sought);
-            // States of the system at which its equations are not defined may be at rest all the same.
-            let mut excluded = set.excluded.iter();
-            let is_left_out =
-                !set.has_full_rank || !excluded.all(|&e| is_pole(system, e, &values));
+            let general = general_parameters(system, &stated_functions(system));
+            let said = of_general(listed(g, &set, sought), &general);
+            // States of the system at which no chart serves may be at rest all the same.
+            let is_left_out = !set.is_complete();
             if is_left_out {
                 let clauses = std::iter::once(said).chain(set.left_out(g));
                 return Verdict::undecided(clauses.collect::<Vec<_>>().join("; "));
             }
             // Whether a family has real members is a part of which there are.
             if set.found.iter().all(|own| own.is_real) {
-                Verdict::Proved(Proof::exact(on(g, &set), said))
+                Verdict::Proved(Proof::exact(on(g, &set, &general), said))
             } else {
                 Verdict::undecided(said)
             }
@@ -100,10 +99,9 @@ fn verdict(cx: &Context<'_>, sought: Sought) -> Verdict {
 }
 
 /// For which values of parameters, and for which states.
-fn on(g: &Graph, set: &SteadySet) -> String {
-    let values = String::from("for the values of the parameters that are stated");
-    let parts: Vec<String> = std::iter::once(values).chain(set.left_out(g)).collect();
-    parts.join("; ")
+fn on(g: &Graph, set: &SteadySet, general: &[String]) -> String {
+    let parts = std::iter::once(for_which(general)).chain(set.left_out(g));
+    parts.collect::<Vec<_>>().join("; ")
 }
 
 /// How many, and which.

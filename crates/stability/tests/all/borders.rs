@@ -211,3 +211,61 @@ x = 0
         [Crossing::Infinity]
     );
 }
+
+/// A border that belongs to what is assumed is a value like all others. x'' = −x − (c − 1) x' grows below c = 1 and is periodic there; with the damping
+/// c it falls above c = 0 and is periodic there; with c (c − 1) it grows between both. x'' = −k x − 4 x³ has λ² = −k, and at k = 0 a double zero. What
+/// is assumed without the border has no change.
+#[test]
+fn the_border_of_an_assumption_may_be_critical() {
+    let axis = "with all eigenvalues on the axis or left of it there alone";
+    let cases = [
+        (
+            "c",
+            "c <= 1",
+            "-x - (c - 1) x'",
+            vec![format!("c = 1 ({axis}, unstable below)")],
+        ),
+        ("c", "c < 1", "-x - (c - 1) x'", vec![]),
+        (
+            "c",
+            "c >= 0",
+            "-x - c x'",
+            vec![format!("c = 0 ({axis}, asymptotically stable above)")],
+        ),
+        ("c", "c > 0", "-x - c x'", vec![]),
+        (
+            "c",
+            "0 <= c <= 1",
+            "-x - c (c - 1) x'",
+            vec![
+                format!("c = 0 ({axis}, unstable above)"),
+                format!("c = 1 ({axis}, unstable below)"),
+            ],
+        ),
+        (
+            "k",
+            "k <= 0",
+            "-k x - 4 x^3",
+            vec![format!("k = 0 ({axis}, unstable below)")],
+        ),
+        ("k", "k <= -1", "-k x - 4 x^3", vec![]),
+    ];
+    for (name, assumed, force, expected) in cases {
+        let value = if name == "c" { "0.5" } else { "-2" };
+        let case = Case::new(&format!(
+            "coordinates = [\"x\"]\nassumptions = [\"{assumed}\"]\nparameters = {{ {name} = {value} }}\nlagrangian = \"1/2 x'^2\"\nforces = {{ x = \"{force}\" }}\n[steady.rest]\nx = 0\n\"x'\" = 0\nover = \"{name}\"\n"
+        ));
+        let Verdict::Proved(proof) = case.verdict("stability.critical", name) else {
+            panic!("{}", case.said("stability.critical", name));
+        };
+        let detail = proof.detail;
+        assert_eq!(
+            detail.contains("is the same"),
+            expected.is_empty(),
+            "{detail}"
+        );
+        for own in expected {
+            assert!(detail.contains(&own), "{assumed}, {force}: {detail}");
+        }
+    }
+}

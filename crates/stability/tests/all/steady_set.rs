@@ -605,3 +605,31 @@ th = "{force}"
 "#
     ))
 }
+
+/// On the circle x² + y² = 1 the force (3 (1 + y), −2) has no part along it where −3 y (1 + y) = 2 x: at (0, −1), where one chart of velocities fails, and
+/// where (1 − y) = 9/4 y² (1 + y), of which one zero is real and none has a closed form by roots of second degree. Both charts together see all.
+#[test]
+fn a_motion_without_closed_form_hides_none_of_another_chart() {
+    let case = Case::new(
+        "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 x'^2 + 1/2 y'^2 - 2 y\"\nforces = { x = \"3 (1 + y)\" }\nconstraints = { circle = \"x^2 + y^2 = 1\" }\n[initial]\ny = -1\n",
+    );
+    let own = found(&case);
+    assert_eq!(own.found.len(), 2, "{:?}", own.found);
+    assert!(own.is_complete(), "{:?}", own.excluded);
+    let of = |name: &str| own.variables.iter().position(|known| known == name);
+    let places: Vec<(f64, f64)> = own
+        .found
+        .iter()
+        .map(numbers)
+        .map(|all| (all[of("x").unwrap()], all[of("y").unwrap()]))
+        .collect();
+    let lowest = |(x, y): &(f64, f64)| x.abs() + (y + 1.0).abs() < 1e-14;
+    let other = |(x, y): &(f64, f64)| {
+        let rest = (1.0 - y) - 2.25 * y * y * (1.0 + y);
+        rest.abs() < 1e-14 && (x + 1.5 * y * (1.0 + y)).abs() < 1e-14 && *x < 0.0
+    };
+    assert!(
+        places.iter().any(lowest) && places.iter().any(other),
+        "{places:?}"
+    );
+}

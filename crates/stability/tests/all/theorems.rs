@@ -337,3 +337,23 @@ fn the_bicycle_at_its_weave_speed() {
     );
     assert!(detail(&case, "upright").contains("on the level of the energy is negative"));
 }
+
+/// Equations that are linear themselves are decided by their eigenvectors. x'' = −x + y, y'' = −y has the solution x = t sin t/2, y = cos t, and x'' = x +
+/// 2 y', y'' = y − 2 x' has (λ² + 1)² with one vector, as with ζ = x + i y the solutions of ζ'' + 2 i ζ' − ζ = 0 are (a + b t) e^(−i t): both are unstable.
+/// With 3 in the place of 2 ζ turns with (−3 ± √5)/2 and stays bounded. Beside a cubic force nothing of that follows.
+#[test]
+fn equations_that_are_linear_themselves() {
+    let cases = [
+        ("-x + y", "-y", "refuted"),
+        ("x + 2 y'", "y - 2 x'", "refuted"),
+        ("x + 3 y'", "y - 3 x'", "proved"),
+        ("-x + y - x^2 y", "-y", "undecided"),
+    ];
+    for (x, y, expected) in cases {
+        let case = Case::new(&format!(
+            "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 x'^2 + 1/2 y'^2\"\nforces = {{ x = \"{x}\", y = \"{y}\" }}\n[steady.rest]\nx = 0\ny = 0\n\"x'\" = 0\n\"y'\" = 0\n"
+        ));
+        let found = case.verdict("stability.nonlinear", "rest");
+        assert_eq!(found.word(), expected, "{x}, {y}: {}", found.detail());
+    }
+}

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 use crate::common::Case;
-use chetaev_stability::eigenvalues::{eigenvalues, unreached};
+use chetaev_stability::eigenvalues::{eigenvalues, unreached, Unreached};
 use chetaev_symbolic::Verdict;
 
 /// One oscillator at rest at x = 0, over p.
@@ -154,8 +154,7 @@ over = "p"
     assert_eq!(said("p z"), "p = 0");
     assert_eq!(said("p (p - 2) z"), "p = 0 or p = 2");
     let roots = said("(p^2 - 2) z");
-    assert!(roots.starts_with("p = -1.414213562373095"), "{roots}");
-    assert!(roots.contains(" or p = 1.414213562373095"), "{roots}");
+    assert_eq!(roots, "p = -sqrt(2) or p = sqrt(2)");
     assert_eq!(
         driven("(p^2 + 1) z")
             .verdict("stability.linear", "s")
@@ -323,7 +322,13 @@ fn modes_that_no_input_reaches() {
         };
         let found = unreached(&a, &input(0.0)).unwrap();
         assert_eq!(found.len(), 1, "{found:?}");
-        assert!(found[0].re.abs() < 1e-14 && (found[0].im - 2.0).abs() < 1e-14);
+        let Unreached {
+            eigenvalue,
+            count,
+            modes,
+        } = found[0];
+        assert!(eigenvalue.re.abs() < 1e-14 && (eigenvalue.im - 2.0).abs() < 1e-14);
+        assert_eq!((count, modes), (1, 1));
         assert!(unreached(&a, &input(1.0)).unwrap().is_empty());
     }
 }
@@ -443,4 +448,51 @@ fn borders_of_roots_of_the_parameter() {
         let stable: Vec<bool> = found.regions.iter().map(|own| own.is_left).collect();
         assert_eq!(stable, [false, true], "{root}");
     }
+}
+
+/// What holds for general values of a parameter without a value says so. x'' = −x, y'' = −y + q x has a Jordan block for q ≠ 0, and bounded motions for
+/// q = 0; x'' = −x' − q² x stands still at 0 alone for q ≠ 0, and everywhere for q = 0.
+#[test]
+fn what_general_values_say_is_not_said_of_all() {
+    let of = |force: &str| {
+        Case::new(&format!(
+            "coordinates = [\"x\", \"y\"]\nparameters = {{ q = {{}} }}\nlagrangian = \"1/2 x'^2 + 1/2 y'^2\"\nforces = {{ {force} }}\n[steady.rest]\nx = 0\ny = 0\n\"x'\" = 0\n\"y'\" = 0\n"
+        ))
+    };
+    let general = "for general values of q";
+    let Verdict::Refuted(found) =
+        of("x = \"-x\", y = \"-y + q x\"").verdict("stability.linear", "rest")
+    else {
+        panic!("a Jordan block");
+    };
+    assert!(found.detail.contains(general), "{found:?}");
+    for claim in ["steady.motions", "equilibrium.states"] {
+        let Verdict::Proved(found) =
+            of("x = \"-x' - q^2 x\", y = \"-y' - y\"").verdict_of_all(claim)
+        else {
+            panic!("{claim}");
+        };
+        assert!(found.on.contains(general), "{found:?}");
+        assert!(found.detail.contains(general), "{found:?}");
+    }
+}
+
+/// A double zero of the constant coefficient is touched: x'' = −x' − (k − 1)² x has the eigenvalues −(k − 1)² and −1 near k = 1. With (k − 1)³ one passes.
+/// The damping (c² − 2)² (c − 1) is zero at c = ±√2 and at c = 1, above which no eigenvalue lies right of the axis: alone c = −√2 is added, exactly.
+#[test]
+fn an_eigenvalue_that_touches_zero_does_not_pass() {
+    let of = |name: &str, force: &str| {
+        Case::new(&format!(
+            "coordinates = [\"x\"]\nparameters = {{ {name} = 2 }}\nlagrangian = \"1/2 x'^2\"\nforces = {{ x = \"{force}\" }}\n[steady.rest]\nx = 0\n\"x'\" = 0\nover = \"{name}\"\n"
+        ))
+    };
+    let touching = of("k", "-x' - (k - 1)^2 x").verdict("stability.critical", "k");
+    let said = touching.detail();
+    assert!(said.contains("an eigenvalue is zero"), "{said}");
+    assert!(!said.contains("passes"), "{said}");
+    let passing = of("k", "-x' - (k - 1)^3 x").verdict("stability.critical", "k");
+    let said = passing.detail();
+    assert!(said.contains("passes through zero"), "{said}");
+    let alone = of("c", "-x - (c^2 - 2)^2 (c - 1) x'").said("stability.linear", "rest");
+    assert_eq!(alone, "c >= 1 or c = -sqrt(2)");
 }

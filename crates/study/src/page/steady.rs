@@ -158,7 +158,7 @@ fn map_of(own: &StabilityMap) -> Map {
     let outlines = own.curves.iter().map(|curve| Outline {
         name: curve.what().into(),
         tint: match curve.kind {
-            "pair" => Tint::Red,
+            "pair" | "collision" => Tint::Red,
             "end" => Tint::Muted,
             _ => Tint::Blue,
         },
@@ -185,7 +185,7 @@ fn map_of(own: &StabilityMap) -> Map {
 }
 
 fn row(study: &Study, name: &str, own: &Stability) -> TableRow {
-    let list = own.eigenvalues(own.stated()).unwrap_or_default();
+    let list = own.eigenvalues_at(own.stated_exactly()).unwrap_or_default();
     let decimals = Decimals::of(list.iter().copied()).with_places(4);
     let eigenvalues: Vec<String> = list.iter().map(|&l| decimals.typeset(l)).collect();
     let stated = |id: &str, word: &str| {

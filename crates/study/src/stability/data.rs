@@ -120,7 +120,7 @@ impl Stability {
                 parts.map(|(name, rows)| (name.to_owned(), exact(rows))).collect::<serde_json::Map<_, _>>()
             }),
             "characteristic_polynomial": polynomial,
-            "eigenvalues": self.eigenvalues(self.stated()).map(pairs),
+            "eigenvalues": self.eigenvalues_at(self.stated_exactly()).map(pairs),
         });
         if let Some(all) = &self.all {
             value["all"] = json!({
@@ -183,6 +183,7 @@ impl Stability {
         let (low, high) = boundary.root.decimal_bounds();
         let kind = match boundary.crossing {
             Crossing::Zero => "zero",
+            Crossing::ZeroTouching => "zero-touching",
             Crossing::Pair => "pair",
             Crossing::Pairs => "pairs",
             Crossing::Collision => "collision",

@@ -10,7 +10,7 @@ use crate::start;
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::admissible_values::AdmissiblePlaces;
-use chetaev_stability::eigenvalues::{eigenvalues, Complex};
+use chetaev_stability::eigenvalues::{eigenvalues, zeros_of, Complex};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
 use chetaev_stability::hurwitz::determinants;
@@ -21,7 +21,7 @@ use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::parallel::on_threads;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use serde_json::{json, Value};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 /// Intervals on each side of the grid.
@@ -47,7 +47,8 @@ pub enum Kind {
 /// A boundary of stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// `zero` where a real eigenvalue passes through zero, `pair` where a pair passes the axis, `end` where the motion ceases to be.
+    /// `zero` where a real eigenvalue passes through zero, `pair` where a pair passes the axis, `collision` where two imaginary pairs meet, `infinity`
+    /// where an eigenvalue goes there, `end` where the motion ceases to be.
     pub kind: &'static str,
     /// Values of both parameters along it.
     pub points: Vec<(f64, f64)>,
@@ -58,6 +59,8 @@ impl Curve {
     pub fn what(&self) -> &'static str {
         match self.kind {
             "pair" => "a pair of eigenvalues passes the axis",
+            "collision" => "two pairs of eigenvalues meet",
+            "infinity" => "an eigenvalue goes to infinity",
             "end" => "the motion ceases to be",
             _ => "an eigenvalue passes through zero",
         }
@@ -81,7 +84,7 @@ pub struct StabilityMap {
     pub kinds: Vec<Kind>,
     /// Boundaries.
     pub curves: Vec<Curve>,
-    /// Functions on whose zeros they lie, with what passes there.
+    /// Functions on whose zeros they lie, with what passes there; `opposite` where two eigenvalues are and nothing passes.
     pub equations: Vec<(&'static str, String)>,
 }
 
@@ -196,9 +199,11 @@ impl Asked {
             threads,
         };
         let (growth, kinds) = grid.sampled(course.tell);
+        let dividing = grid.dividing();
+        let (curves, used) = grid.curves(&dividing, &kinds);
         StabilityMap {
-            curves: grid.curves(&kinds),
-            equations: grid.equations(),
+            curves,
+            equations: grid.equations(&dividing, &used),
             growth,
             kinds,
             side,
@@ -247,7 +252,7 @@ impl Grid<'_> {
         let found = match &self.question.polynomial {
             Some(own) => {
                 let list = numbers(&own.coefficients)?;
-                let mut found = zeros(&list)?;
+                let mut found = zeros_of(&list)?;
                 found.extend(vec![Complex::new(0.0, 0.0); own.further_zeros]);
                 found
             }
@@ -301,12 +306,13 @@ impl Grid<'_> {
         found.into_iter().flatten().unzip()
     }
 
-    /// The place of the boundary on an edge whose ends differ, with what passes there.
+    /// The place of the boundary on an edge whose ends differ, with what passes there and the function that vanishes.
     fn located(
         &self,
+        dividing: &[Dividing],
         (column, row, is_upwards): Edge,
         [first, last]: [Kind; 2],
-    ) -> ((f64, f64), &'static str) {
+    ) -> Located {
         let at = |part: f64| {
             let (dx, dy) = if is_upwards { (0.0, part) } else { (part, 0.0) };
             self.place(column as f64 + dx, row as f64 + dy)
@@ -320,20 +326,39 @@ impl Grid<'_> {
                 high = middle;
             }
         }
-        let place = at(0.5 * (low + high));
+        let middle = 0.5 * (low + high);
+        let place = at(middle);
+        if first == Kind::NoMotion || last == Kind::NoMotion {
+            return (place, "end", None);
+        }
+        let changes = |own: &Dividing| {
+            let sides = [middle - BESIDE, middle + BESIDE];
+            let signs = sides.map(|part| self.number(own.function, at(part)));
+            signs[0] * signs[1] < 0.0
+        };
+        match dividing.iter().position(changes) {
+            Some(own) => (place, dividing[own].kind, Some(own)),
+            None => (place, self.kind_near(place), None),
+        }
+    }
+
+    fn number(&self, e: Expr, place: (f64, f64)) -> f64 {
+        let found = self.g.evaluate_f64(&[e], &|s| self.value(s, place));
+        found.map_or(f64::NAN, |found| found[0])
+    }
+
+    /// What passes at a place where no function changes its sign, as where several eigenvalues pass at once.
+    fn kind_near(&self, place: (f64, f64)) -> &'static str {
         let is_pair = |(l, size): (Complex<f64>, f64)| l.im.abs() > 1e-5 * size;
-        let kind = if first == Kind::NoMotion || last == Kind::NoMotion {
-            "end"
-        } else if self.rightmost(place).is_some_and(is_pair) {
+        if self.rightmost(place).is_some_and(is_pair) {
             "pair"
         } else {
             "zero"
-        };
-        (place, kind)
+        }
     }
 
-    /// The boundaries, joined from cell to cell.
-    fn curves(&self, kinds: &[Kind]) -> Vec<Curve> {
+    /// The boundaries, joined from cell to cell, and which of the functions vanish on them.
+    fn curves(&self, dividing: &[Dividing], kinds: &[Kind]) -> (Vec<Curve>, BTreeSet<usize>) {
         let side = self.side;
         let kind = |column: usize, row: usize| kinds[row * (side + 1) + column];
         let ends = |&(c, r, up): &Edge| {
@@ -361,52 +386,72 @@ impl Grid<'_> {
             }
         }
         let crossed: Vec<Edge> = joined.keys().copied().collect();
-        let located = |at: usize| self.located(crossed[at], ends(&crossed[at]));
+        let located = |at: usize| self.located(dividing, crossed[at], ends(&crossed[at]));
         let located = on_threads(self.threads, crossed.len(), located, &mut |_| {});
-        let places: BTreeMap<Edge, _> = crossed.iter().copied().zip(located).collect();
-        chains(joined)
-            .into_iter()
-            .flat_map(|chain| by_kind(chain.iter().map(|edge| places[edge])))
-            .collect()
+        let used = located.iter().filter_map(|own| own.2).collect();
+        let places: BTreeMap<Edge, Located> = crossed.iter().copied().zip(located).collect();
+        let pieces = |chain: &Vec<Edge>| {
+            by_kind(chain.iter().map(|edge| {
+                let (place, kind, _) = places[edge];
+                (place, kind)
+            }))
+        };
+        (chains(joined).iter().flat_map(pieces).collect(), used)
     }
 
-    /// Functions on whose zeros boundaries may lie.
-    fn equations(&self) -> Vec<(&'static str, String)> {
+    /// Functions on whose zeros boundaries may lie, as those of one parameter do.
+    fn dividing(&self) -> Vec<Dividing> {
         let g = self.g;
-        let mut found: Vec<(&'static str, String)> = Vec::new();
+        let mut found: Vec<Dividing> = Vec::new();
         for own in self.question.deciding(g) {
             let list = determinants(g, &own.coefficients);
-            let constant = own.coefficients.first().map(|&e| ("zero", e));
-            let pairs = list.len().checked_sub(2).map(|i| ("pair", list[i]));
-            for (kind, e) in constant.into_iter().chain(pairs) {
-                let occurring = factors(g, e, &self.over).unwrap_or_default();
-                for (factor, _) in occurring {
-                    let text = g.text(factor);
-                    let is_new = !found.iter().any(|(_, known)| *known == text);
-                    if is_new && g.contains_any(factor, &self.over) && text.len() <= LONGEST {
-                        found.push((kind, text));
+            let pair = if own.is_paired { "collision" } else { "pair" };
+            let all = [
+                ("zero", own.coefficients.first()),
+                (pair, list.len().checked_sub(2).map(|i| &list[i])),
+                ("infinity", own.coefficients.last()),
+            ];
+            for (kind, e) in all {
+                let occurring = e.and_then(|&e| factors(g, e, &self.over));
+                for (function, _) in occurring.unwrap_or_default() {
+                    let is_known = found.iter().any(|own| own.function == function);
+                    if !is_known && g.contains_any(function, &self.over) {
+                        found.push(Dividing { kind, function });
                     }
                 }
             }
         }
         found
     }
+
+    /// The functions that are short enough to be read, with what happens on their zeros. Where Hurwitz's last determinant but one vanishes two
+    /// eigenvalues are opposite (Orlando 1911): a pair on the axis where that is a boundary, and otherwise perhaps λ and −λ.
+    fn equations(&self, all: &[Dividing], used: &BTreeSet<usize>) -> Vec<(&'static str, String)> {
+        let read = |(at, own): (usize, &Dividing)| {
+            let is_of_pairs = matches!(own.kind, "pair" | "collision");
+            let kind = if is_of_pairs && !used.contains(&at) {
+                "opposite"
+            } else {
+                own.kind
+            };
+            (kind, self.g.text(own.function))
+        };
+        let found = all.iter().enumerate().map(read);
+        found.filter(|(_, text)| text.len() <= LONGEST).collect()
+    }
 }
 
-/// The zeros of a polynomial, the constant coefficient first: eigenvalues of its companion matrix. A leading coefficient zero leaves none.
-fn zeros(coefficients: &[f64]) -> Option<Vec<Complex<f64>>> {
-    let (leading, rest) = coefficients.split_last()?;
-    let n = rest.len();
-    let entry = |r: usize, c: usize| match (r, c) {
-        (r, c) if c == n - 1 => -rest[r] / leading,
-        (r, c) if r == c + 1 => 1.0,
-        _ => 0.0,
-    };
-    let rows = |f: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
-        (0..n).map(|r| (0..n).map(|c| f(r, c)).collect()).collect()
-    };
-    eigenvalues(&rows(&|r, c| f64::from(u8::from(r == c))), &rows(&entry))
+/// A function that vanishes where something happens to eigenvalues.
+struct Dividing {
+    kind: &'static str,
+    function: Expr,
 }
+
+/// A place of a boundary, what passes there, and the number of the function that vanishes.
+type Located = ((f64, f64), &'static str, Option<usize>);
+
+/// How far from a boundary signs are compared, in parts of an edge.
+const BESIDE: f64 = 1e-4;
 
 /// Chains of edges: open ones from an end, then closed ones.
 fn chains(mut joined: BTreeMap<Edge, Vec<Edge>>) -> Vec<Vec<Edge>> {
@@ -508,10 +553,12 @@ impl StabilityMap {
             );
         }
         for (kind, e) in &self.equations {
-            let what = if *kind == "pair" {
-                "pairs pass on zeros of"
-            } else {
-                "eigenvalues are zero on zeros of"
+            let what = match *kind {
+                "pair" => "pairs pass where boundaries are zeros of",
+                "collision" => "two pairs meet where boundaries are zeros of",
+                "opposite" => "two eigenvalues are opposite, and the stability is the same on both sides, on zeros of",
+                "infinity" => "an eigenvalue goes to infinity on zeros of",
+                _ => "eigenvalues are zero on zeros of",
             };
             let _ = writeln!(text, "{what} {e}");
         }

@@ -171,7 +171,7 @@ impl StabilityMap {
         }
         for curve in &self.curves {
             let color = match curve.kind {
-                "pair" => "#b3261e",
+                "pair" | "collision" => "#b3261e",
                 "end" => "#777777",
                 _ => "#1f5fa8",
             };

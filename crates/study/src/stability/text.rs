@@ -4,7 +4,7 @@ use super::{named_parts, Mode, Numbers, Stability};
 use crate::decimals::{real, Decimals};
 use chetaev_mechanics::system::Parameter;
 use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
-use chetaev_stability::eigenvalues::unreached;
+use chetaev_stability::eigenvalues::{unreached, Unreached};
 use chetaev_stability::hurwitz::{Boundary, Crossing};
 use chetaev_stability::multiplicity::defects;
 use chetaev_stability::question::Place;
@@ -91,7 +91,7 @@ impl Stability {
             .zip(space.transfer(g).unwrap_or_default())
         {
             for (input, e) in space.controls().iter().zip(row) {
-                let _ = writeln!(text, "  {output}/{input} = {}", shown(g, e));
+                let _ = writeln!(text, "  {}/{input} = {}", as_factor(output), shown(g, e));
             }
         }
         text
@@ -101,17 +101,34 @@ impl Stability {
     fn unreached_text(&self) -> String {
         let (space, at) = (&self.space, self.stated());
         let [a, b] = [&space.a, &space.b].map(|rows| self.numbers(rows, at));
-        match unreached(&a, &b) {
-            Some(list) if !list.is_empty() => {
-                let list: Vec<(f64, f64)> = list.iter().map(|l| (l.re, l.im)).collect();
-                let list = complex(&list);
-                format!(
-                    "  the modes with the eigenvalues {} are not reached\n",
-                    list.join(", ")
-                )
-            }
-            _ => String::new(),
+        let list = unreached(&a, &b).unwrap_or_default();
+        let decimals = Decimals::of(
+            list.iter()
+                .map(|own| (own.eigenvalue.re, own.eigenvalue.im)),
+        );
+        let eigenvalue = |own: &Unreached| decimals.complex((own.eigenvalue.re, own.eigenvalue.im));
+        let (whole, some): (Vec<Unreached>, Vec<Unreached>) =
+            list.into_iter().partition(|own| own.count >= own.modes);
+        let mut text = String::new();
+        if !whole.is_empty() {
+            let whole: Vec<String> = whole.iter().map(eigenvalue).collect();
+            let _ = writeln!(
+                text,
+                "  the modes with the eigenvalues {} are not reached",
+                whole.join(", ")
+            );
         }
+        for own in &some {
+            let _ = writeln!(
+                text,
+                "  of the {} independent modes with the eigenvalue {} {} {} not reached",
+                own.modes,
+                eigenvalue(own),
+                own.count,
+                if own.count == 1 { "is" } else { "are" }
+            );
+        }
+        text
     }
 
     /// The equations in all variables.
@@ -178,11 +195,15 @@ impl Stability {
             );
         }
         let modes = self.modes();
+        text.push_str(&blocks(&modes, list.is_empty()));
         if !modes.is_empty() {
             let _ = writeln!(text, "\nModes ({}):", self.question.linear.names.join(", "));
         }
         let decimals = Decimals::of(modes.iter().map(|own| own.eigenvalue));
-        for Mode { eigenvalue, vector } in modes {
+        for Mode {
+            eigenvalue, vector, ..
+        } in modes
+        {
             let (eigenvalue, vector) = (decimals.complex(eigenvalue), complex(&vector));
             let _ = writeln!(text, "  {eigenvalue}: ({})", vector.join(", "));
         }
@@ -285,15 +306,14 @@ impl Stability {
     }
 
     fn eigenvalues_text(&self) -> String {
-        let at = self.stated();
-        let mut text = match (self.question.over, at) {
+        let mut text = match (self.question.over, self.stated()) {
             (Some(symbol), Some(value)) => format!(
                 "\nEigenvalues at {} = {value}:\n",
                 self.graph().symbol_text(symbol)
             ),
             _ => "\nEigenvalues:\n".into(),
         };
-        match self.eigenvalues(at) {
+        match self.eigenvalues_at(self.stated_exactly()) {
             Some(list) => complex(&list).iter().for_each(|l| {
                 let _ = writeln!(text, "  {l}");
             }),
@@ -308,6 +328,7 @@ impl Stability {
         let Some(range) = &self.range else {
             text.push_str(&self.polynomial_text());
             text.push_str(&self.eigenvalues_text());
+            text.push_str(&self.place_text());
             text.push_str("\nWhat is proved of the stability of motions that the model names: `chetaev study --claims stability`; over a range of a parameter: `--over NAME=FROM:TO`.\n");
             return text;
         };
@@ -369,9 +390,30 @@ impl Stability {
         }
     }
 
+    /// Where the eigenvalues lie at the values that the model states, decided exactly; nothing where it was not.
+    fn place_text(&self) -> String {
+        let g = self.graph();
+        let stated = self.stated_exactly();
+        let at = stated.and_then(|e| g.as_number(e).cloned());
+        if self.question.over.is_some() && at.is_none() {
+            return String::new();
+        }
+        let said = match self.question.place_at(g, at.as_ref()) {
+            Some(Place::Left) if self.question.linear.family > 0 => "All eigenvalues but the zeros of the family lie left of the axis, exactly.",
+            Some(Place::Left) => "All eigenvalues lie left of the axis, exactly: the motion is asymptotically stable.",
+            Some(Place::OnAxis) => "No eigenvalue lies right of the axis, and some lie on it, exactly: the linear equations alone do not decide.",
+            Some(Place::Right) => "An eigenvalue lies right of the axis, exactly: the motion is unstable.",
+            Some(Place::NotLeft) | None => return String::new(),
+        };
+        format!("\n{said}\n")
+    }
+
     fn crossing(&self, boundary: &Boundary) -> &'static str {
         match boundary.crossing {
             Crossing::Zero => "an eigenvalue passes through zero",
+            Crossing::ZeroTouching => {
+                "an eigenvalue is zero there, and on both sides the stability is the same"
+            }
             Crossing::Pair => "a pair of eigenvalues passes the imaginary axis",
             Crossing::Pairs => "several pairs of eigenvalues are on the imaginary axis at once",
             Crossing::Collision => "two pairs of eigenvalues meet",
@@ -386,9 +428,53 @@ impl Stability {
     }
 }
 
+/// The eigenvalues that have fewer modes than their multiplicity, off the axis, and on it where nothing was said of those.
+fn blocks(modes: &[Mode], with_axis: bool) -> String {
+    let decimals = Decimals::of(modes.iter().map(|own| own.eigenvalue));
+    let size = |(re, im): (f64, f64)| re.hypot(im);
+    let largest = modes.iter().map(|own| size(own.eigenvalue));
+    let largest = largest.fold(0.0, f64::max);
+    let mut text = String::new();
+    for own in modes.chunk_by(|a, b| a.eigenvalue == b.eigenvalue) {
+        let Mode {
+            eigenvalue,
+            multiplicity,
+            ..
+        } = own[0];
+        let is_asked = with_axis || eigenvalue.0.abs() > ON_AXIS * largest;
+        if is_asked && own.len() < multiplicity {
+            let vectors = if own.len() == 1 {
+                "eigenvector"
+            } else {
+                "eigenvectors"
+            };
+            let _ = writeln!(
+                text,
+                "A Jordan block: the eigenvalue {} has multiplicity {multiplicity} and {} {vectors}",
+                decimals.complex(eigenvalue),
+                own.len()
+            );
+        }
+    }
+    text
+}
+
+/// Real parts that are smaller in parts of the largest eigenvalue are rounding.
+const ON_AXIS: f64 = 1e-9;
+
 fn complex(list: &[(f64, f64)]) -> Vec<String> {
     let decimals = Decimals::of(list.iter().copied());
     list.iter().map(|own| decimals.complex(*own)).collect()
+}
+
+/// An output as the numerator of a quotient: a name as it is, all else in parentheses.
+fn as_factor(output: &str) -> String {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+    if output.chars().all(is_name) {
+        output.into()
+    } else {
+        format!("({output})")
+    }
 }
 
 /// The longest exact entry that is shown as it is.

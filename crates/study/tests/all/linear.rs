@@ -210,3 +210,187 @@ th = "acos(k/W^2)"
         assert!((k - w * w).abs() < 1e-9, "W = {w}, k = {k}");
     }
 }
+
+/// A model with a motion of rest at zero, without parameters unless given.
+fn at_rest(coordinates: &[&str], rest: &str) -> Stability {
+    let names: Vec<String> = coordinates.iter().map(|own| format!("{own:?}")).collect();
+    let steady: Vec<String> = coordinates
+        .iter()
+        .map(|own| format!("{own} = 0\n\"{own}'\" = 0\n"))
+        .collect();
+    let text = format!(
+        "name = \"own\"\ncoordinates = [{}]\n{rest}\n[steady.rest]\n{}",
+        names.join(", "),
+        steady.concat()
+    );
+    found(&text, &Wanted::default())
+}
+
+/// A chain of masses m, M, m with stiff springs between them runs freely: λ² is a factor, and its zeros are so to the last digit. The others are
+/// λ² = −k/m, the middle at rest, and −k/m (1 + 2 m/M), the ends together.
+#[test]
+fn zeros_of_a_free_chain_are_exact() {
+    for (m, big, k) in [
+        ("1.99", "2.66", "1.6e9"),
+        ("1.99e-26", "2.66e-26", "1.6e3"),
+        ("1.6", "2.76", "1637"),
+    ] {
+        let own = at_rest(
+            &["x", "y", "z"],
+            &format!("parameters = {{ m = {m}, M = {big}, k = {k} }}\nlagrangian = \"1/2 m x'^2 + 1/2 M y'^2 + 1/2 m z'^2 - 1/2 k (y - x)^2 - 1/2 k (z - y)^2\""),
+        );
+        let list = own.eigenvalues_at(None).unwrap();
+        let zeros = list.iter().filter(|l| **l == (0.0, 0.0)).count();
+        assert_eq!(zeros, 2, "{list:?}");
+        let [m, big, k] = [m, big, k].map(|text| text.parse::<f64>().unwrap());
+        let expected = [(k / m).sqrt(), (k / m * (1.0 + 2.0 * m / big)).sqrt()];
+        for omega in expected {
+            let is_own = |l: &&(f64, f64)| (l.1 - omega).abs() < 1e-13 * omega;
+            let near = list.iter().filter(is_own).count();
+            assert_eq!(near, 1, "{omega}: {list:?}");
+        }
+        let largest = list.iter().map(|l| l.0.abs()).fold(0.0, f64::max);
+        assert!(largest < 1e-13 * expected[1], "{list:?}");
+        // Two zeros and one direction in which the chain stands at another place.
+        let modes = own.modes();
+        assert_eq!(
+            modes
+                .iter()
+                .filter(|own| own.eigenvalue == (0.0, 0.0))
+                .count(),
+            1,
+            "{modes:?}"
+        );
+        let still = modes
+            .iter()
+            .find(|own| own.eigenvalue == (0.0, 0.0))
+            .unwrap();
+        for (at, entry) in still.vector.iter().enumerate() {
+            let expected = if at < 3 { 3.0_f64.sqrt().recip() } else { 0.0 };
+            let distance = (entry.0 - expected).hypot(entry.1);
+            assert!(distance < 1e-12, "{still:?}");
+        }
+    }
+}
+
+/// An eigenvalue has as many modes as it has independent vectors, and a Jordan block where these are fewer than its multiplicity. Two equal oscillators
+/// move each alone: (1, 0, i, 0) and (0, 1, 0, i). With y pushing x there is one mode, (1, 0, i, 0). x'' = −2 x' − x has (λ + 1)² and the vector
+/// (1, −1); two of them have two vectors of four.
+#[test]
+fn multiple_eigenvalues_have_all_their_modes() {
+    let law = |x: &str, y: &str| {
+        format!("lagrangian = \"1/2 x'^2 + 1/2 y'^2\"\nforces = {{ x = \"{x}\", y = \"{y}\" }}")
+    };
+    let half = 0.5_f64.sqrt();
+    let cases = [
+        (law("-x", "-y"), (0.0, 1.0), 2, "", 2),
+        (
+            law("-x + y", "-y"),
+            (0.0, 1.0),
+            1,
+            "an imaginary pair has multiplicity 2 and 1 ",
+            2,
+        ),
+        (
+            law("-2 x' - x", "-2 y' - y"),
+            (-1.0, 0.0),
+            2,
+            "the eigenvalue -1.000000 has multiplicity 4 and 2 eigenvectors",
+            4,
+        ),
+    ];
+    for (law, eigenvalue, count, said, multiplicity) in cases {
+        let own = at_rest(&["x", "y"], &law);
+        let modes = own.modes();
+        assert_eq!(modes.len(), count, "{law}: {modes:?}");
+        for (at, mode) in modes.iter().enumerate() {
+            let (re, im) = mode.eigenvalue;
+            assert!((re - eigenvalue.0).abs() + (im - eigenvalue.1).abs() < 1e-15);
+            assert_eq!(mode.multiplicity, multiplicity);
+            // The velocities are λ times the positions.
+            let rate = [half * eigenvalue.0, half * eigenvalue.1];
+            let mut expected = [[0.0; 2]; 4];
+            let sign = if eigenvalue.0 < 0.0 { 1.0 } else { 0.0 };
+            expected[at][0] = half;
+            expected[at + 2] = rate;
+            for (entry, expected) in mode.vector.iter().zip(expected) {
+                // The largest entry is made positive: of two as large either one may be.
+                let turned = [(1.0, 0.0), (0.0, -1.0), (-sign, 0.0)].iter().any(|turn| {
+                    let re = turn.0 * expected[0] - turn.1 * expected[1];
+                    let im = turn.0 * expected[1] + turn.1 * expected[0];
+                    (entry.0 - re).abs() + (entry.1 - im).abs() < 1e-12
+                });
+                assert!(turned, "{law}: {modes:?}");
+            }
+        }
+        let text = own.linear_text();
+        assert_eq!(text.contains("A Jordan block"), !said.is_empty(), "{text}");
+        assert!(text.contains(said), "{text}");
+    }
+}
+
+/// Of two equal oscillators that one force moves together, the difference alone is not reached; of unlike ones each is.
+#[test]
+fn one_of_two_equal_modes_is_not_reached() {
+    let own = |k: &str| {
+        at_rest(
+            &["x", "y"],
+            &format!("parameters = {{ k = {k} }}\ncontrols = {{ u = {{}} }}\nlagrangian = \"1/2 x'^2 + 1/2 y'^2 - 1/2 x^2 - 1/2 k y^2\"\nforces = {{ x = \"u\", y = \"u\" }}"),
+        )
+        .linear_text()
+    };
+    let equal = own("1");
+    assert!(
+        equal.contains(
+            "of the 2 independent modes with the eigenvalue 0.000000+1.000000i 1 is not reached"
+        ),
+        "{equal}"
+    );
+    assert!(!own("2").contains("not reached"));
+}
+
+/// The map says of a boundary what happens there. Of x'' = −k x and y'' = −q y eigenvalues are zero at k = 0 and at q = 0, where a pair of each passes to
+/// the real axis; at k = q two pairs on the axis are the same, and nothing passes. Of two oscillators (λ² + c λ + k)² + 1/25 a pair passes where
+/// c² k = 1/25; at c = 0, where λ² = −k ± i/5, two eigenvalues are opposite, and none is on the axis.
+#[test]
+fn a_map_says_what_passes() {
+    let drawn = |forces: &str, parameters: &str, over: &str| {
+        let text = format!("name = \"own\"\ncoordinates = [\"x\", \"y\"]\nparameters = {{ {parameters} }}\nlagrangian = \"1/2 x'^2 + 1/2 y'^2\"\nforces = {{ {forces} }}\n[steady.rest]\nx = 0\ny = 0\n\"x'\" = 0\n\"y'\" = 0\n");
+        let over = Wanted {
+            over: Some(over),
+            ..Wanted::default()
+        };
+        map(&model(&text), &over, &mut |_| {}).unwrap()
+    };
+    let free = drawn(
+        "x = \"-k x\", y = \"-q y\"",
+        "k = 1, q = 2",
+        "k=-1:2,q=-1:2",
+    );
+    assert!(!free.curves.is_empty());
+    assert!(
+        free.curves.iter().all(|own| own.kind == "zero"),
+        "{}",
+        free.text()
+    );
+    let mut kinds: Vec<&str> = free.equations.iter().map(|own| own.0).collect();
+    kinds.sort_unstable();
+    assert_eq!(kinds, ["opposite", "zero", "zero"], "{:?}", free.equations);
+    let turned = drawn(
+        "x = \"-k x - c x' + y/5\", y = \"-k y - c y' - x/5\"",
+        "k = 1, c = 0.1",
+        "k=-1:5,c=0.01:1",
+    );
+    let of = |text: &str| {
+        let mut all = turned.equations.iter();
+        all.find(|own| own.1 == text).map(|own| own.0)
+    };
+    assert_eq!(of("c"), Some("opposite"), "{:?}", turned.equations);
+    let passing = turned.equations.iter().filter(|own| own.0 == "pair");
+    assert_eq!(passing.count(), 1, "{:?}", turned.equations);
+    for own in turned.curves.iter().filter(|own| own.kind == "pair") {
+        for (k, c) in &own.points {
+            assert!((c * c * k - 0.04).abs() < 1e-9, "{k} {c}");
+        }
+    }
+}
