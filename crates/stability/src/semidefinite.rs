@@ -21,28 +21,19 @@ pub(crate) struct RealParts<'a> {
     pub(crate) unknowns: &'a [Unknown],
     /// The generators that are determined, in this order.
     pub(crate) order: &'a [usize],
-    pub(crate) meter: &'a Meter,
 }
 
 impl RealParts<'_> {
-    /// Triangular systems with the same real zeros: a family of complex ones whose real ones are points of it is replaced by these.
-    pub(crate) fn of(
-        &self,
-        systems: Vec<TriangularSystem>,
-    ) -> Result<Vec<TriangularSystem>, TooLarge> {
+    /// Triangular systems with the same real zeros: a family of complex ones whose real ones are points of it is replaced by these. Where that
+    /// is too much work the family stays as it is, which has the same real zeros too.
+    pub(crate) fn of(&self, systems: Vec<TriangularSystem>) -> Vec<TriangularSystem> {
+        let meter = Meter::new(Budget::DISPLAY);
         let (mut open, mut found) = (systems, Vec::new());
         while let Some(system) = open.pop() {
-            // Where that is too much work the family stays as it is, which is true of it too.
-            let further = self.vanishing_with(&system, &Meter::new(Budget::DISPLAY));
-            let further = further.unwrap_or_default();
-            if further.is_empty() {
+            let Ok(Some(parts)) = self.parts(&system, &meter) else {
                 found.push(system);
                 continue;
-            }
-            let equations = system.equations.iter().map(|(_, p)| p.clone());
-            let own = self.vanishing.iter().cloned();
-            let all: Vec<Polynomial> = own.chain(equations).chain(further).collect();
-            let parts = triangular_systems(&all, &system.nonzero, self.order, self.meter)?;
+            };
             // Of `1 − cos θ` the derivative vanishes wherever it does itself.
             let (same, other): (Vec<_>, Vec<_>) = parts
                 .into_iter()
@@ -51,7 +42,23 @@ impl RealParts<'_> {
             open.extend(other);
         }
         found.reverse();
-        Ok(found)
+        found
+    }
+
+    /// The parts of a family with real zeros; `None` where nothing besides its equations is known to vanish at these.
+    fn parts(
+        &self,
+        system: &TriangularSystem,
+        meter: &Meter,
+    ) -> Result<Option<Vec<TriangularSystem>>, TooLarge> {
+        let further = self.vanishing_with(system, meter)?;
+        if further.is_empty() {
+            return Ok(None);
+        }
+        let equations = system.equations.iter().map(|(_, p)| p.clone());
+        let own = self.vanishing.iter().cloned();
+        let all: Vec<Polynomial> = own.chain(equations).chain(further).collect();
+        triangular_systems(&all, &system.nonzero, self.order, meter).map(Some)
     }
 
     /// What vanishes at the real zeros of a family besides its equations.

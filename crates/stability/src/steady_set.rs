@@ -158,9 +158,8 @@ fn in_chart(
         vanishing: &vanishing,
         unknowns: &unknowns,
         order: &order,
-        meter,
     };
-    let chains = elimination.of(chains)?;
+    let chains = elimination.of(chains);
     let anywhere = equations.others().into_iter();
     let anywhere: Vec<Symbol> = anywhere.map(|j| system.coordinates[j].q_symbol).collect();
     let mut found = Vec::new();
