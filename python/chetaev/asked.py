@@ -41,6 +41,13 @@ def whole(name: str, value: Any, least: int, greatest: int = 2**63 - 1) -> int:
     return found
 
 
+def flag(name: str, value: Any) -> bool:
+    """A keyword as a truth value; no text is one, as ``"False"`` would be taken for true."""
+    if isinstance(value, (bool, int)) or type(value).__name__ in ("bool_", "bool"):
+        return bool(value)
+    raise TypeError(f"{name}: True or False is needed, not {value!r}")
+
+
 def type_or_value(value: Any) -> type[Exception]:
     """What Python raises for a text that is no number, and for what can be none."""
     return OptionError if isinstance(value, str) else TypeError

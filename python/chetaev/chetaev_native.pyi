@@ -243,6 +243,11 @@ class Model:
         """
         The equations of formulations in a notation, and notes: `derive`.
         """
+    @property
+    def factors(self, /) -> list[tuple[str, float]]:
+        """
+        Factors by which numbers in units that are no SI base units become such, by the names of parameters.
+        """
     def follow(self, /, about: str | None, over: str | None, orbit: bool, period: str | None, points: SupportsIndex, step: SupportsFloat | SupportsIndex, tell: Callable[[str, float | None], None] | None = None) -> tuple[str, str]:
         """
         Steady motions or periodic orbits over a range of a parameter, in words and as JSON: `follow`.
@@ -479,7 +484,7 @@ def gallery(name: str | None = None) -> tuple[str, list[tuple[str, str]], str]:
     The models that come with Chetaev as JSON; of one model, its texts by path.
     """
 
-def robot(text: str) -> tuple[str, list[tuple[int, str]]]:
+def robot(path: str, text: str) -> tuple[str, list[tuple[int, str]]]:
     """
     A model text from the description of a robot in URDF or MJCF, and what of it was not understood, by line.
     """

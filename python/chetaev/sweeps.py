@@ -338,8 +338,10 @@ def ensemble(
     >>> found["end_x"].shape
     (9,)
     """
-    from .system import _ROWS
+    from .system import _ROWS, System
 
+    if not isinstance(system, System):
+        raise TypeError(f"system: a System is needed, not {system!r}")
     own, start = system._by_names("parameters", parameters), system._by_names("initial", initial)
     twice = set(own) & set(start)
     if twice:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from . import chetaev_native as native
 from . import notebook
-from .asked import listed, mapping, number, seconds, whole, word, words
+from .asked import flag, listed, mapping, number, seconds, whole, word, words
 from .errors import Interrupted, ModelWarning, OptionError
 from .keywords import in_python
 from .results import (
@@ -205,6 +205,8 @@ class System(Shown):
         -------
         System
         """
+        if not isinstance(name, str):
+            raise TypeError(f"name: a text is needed, not {name!r}")
         return cls.__new__(cls)._take(native.Model.from_texts(*of_gallery(name), _pairs(set)))
 
     @classmethod
@@ -225,7 +227,7 @@ class System(Shown):
         System
         """
         with open(path, encoding="utf-8") as file:
-            text, notes = native.robot(file.read())
+            text, notes = native.robot(os.fspath(path), file.read())
         for line, message in notes:
             warnings.warn(f"{os.fspath(path)}:{line}: {message}", ModelWarning, stacklevel=2)
         return cls.from_text(text, set=set)
@@ -389,7 +391,10 @@ class System(Shown):
 
     @property
     def parameters(self) -> dict[str, str | None]:
-        """Names of the parameters with their exact values; ``None`` where one has no value."""
+        """Names of the parameters with their exact values in SI units, as all computed numbers are; ``None`` where one has no value.
+
+        Values that are given, as to ``with_values``, are in the units that the model states: a length of ``"1/2"`` here is 50 where ``units`` says cm.
+        """
         return dict(self._native.parameters)
 
     @property
@@ -968,7 +973,7 @@ class System(Shown):
         )
         varied = {
             "vary": ranges(self._by_names("vary", vary)), "initial": ranges(self._by_names("initial", initial)), "rows": table_text(rows),
-            "zip": bool(zip), "count": count, "seed": seed, "samples": samples,
+            "zip": flag("zip", zip), "count": count, "seed": seed, "samples": samples,
         }
         writable(out)
         with _Progress(progress) as tell:
@@ -1204,7 +1209,7 @@ class System(Shown):
         given = [by] if isinstance(by, str) or not isinstance(by, Iterable) else list(by)
         names = ",".join(self._name_of(own) for own in given)
         with _Progress(progress) as tell:
-            columns, rows = self._anew().sensitivity(names, second, [float(t) for t in times], bool(project), tell)
+            columns, rows = self._anew().sensitivity(names, second, [float(t) for t in times], flag("project", project), tell)
         table = np.array(rows, dtype=np.float64).reshape(-1, len(columns))
         return Columns({name: table[:, place].copy() for place, name in enumerate(columns)})
 
@@ -1365,7 +1370,7 @@ def _asked(**options: Any) -> dict[str, Any]:
         if asked[name] is not None:
             asked[name] = kind(name, asked[name])
     for name in ("project", "keep_integrals"):
-        asked[name] = bool(asked[name])
+        asked[name] = flag(name, asked[name])
     if asked["branch"] is not None:
         asked["branch"] = whole("branch", asked["branch"], 1)
     for name in ("claims", "method", "precision", "formulation"):
@@ -1382,7 +1387,7 @@ def _wanted(**options: Any) -> dict[str, Any]:
     for name in ("about", "over", "at"):
         asked[name] = word(name, asked[name])
     for name in ("symbolic", "numbers", "all"):
-        asked[name] = bool(asked[name])
+        asked[name] = flag(name, asked[name])
     return asked
 
 

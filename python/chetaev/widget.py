@@ -89,7 +89,9 @@ class Widget(anywidget.AnyWidget):
 
     def __init__(self, system: System, ranges: Mapping[str, tuple[float, float]], size: tuple[int, int], motion: Mapping[str, Any]) -> None:
         self._system, self._size, self._motion = system, size, dict(motion)
-        known = system.compile().parameters
+        # Sliders are in the units of the model, as values that are given are.
+        factors = dict(system._native.factors)
+        known = {name: value / factors.get(name, 1.0) for name, value in system.compile().parameters.items()}
         unknown = [name for name in ranges if name not in known]
         if unknown:
             raise ValueError(f"`{unknown[0]}` is no parameter; there are {', '.join(known)}")

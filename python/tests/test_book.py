@@ -13,7 +13,9 @@ from conftest import ROOT
 
 from chetaev import System
 
-MODULES = ["chetaev", "chetaev.claims", "chetaev.functional", "chetaev.sweeps", "chetaev.system"]
+MODULES = [
+    "chetaev", "chetaev.claims", "chetaev.compiled", "chetaev.functional", "chetaev.results", "chetaev.sweeps", "chetaev.system",
+]
 
 
 def test_the_chapter_gives_what_it_shows() -> None:

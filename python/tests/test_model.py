@@ -124,8 +124,42 @@ def test_robots_are_read(tmp_path: Path) -> None:
         arm = System.from_urdf(robot)
     assert arm.coordinates == ["shoulder"]
     robot.write_text("<robot")
-    with pytest.raises(chetaev.OptionError):
+    with pytest.raises(chetaev.ModelError) as broken:
         System.from_urdf(robot)
+    assert (broken.value.file, broken.value.line) == (str(robot), 1)
+    robot.write_text('<robot name="a">\n <link name="b"><inertial>\n  <mass value="x"/></inertial></link>\n</robot>\n')
+    with pytest.raises(chetaev.ModelError) as found:
+        System.from_urdf(robot)
+    wrong = found.value
+    assert (wrong.file, wrong.line, wrong.column) == (str(robot), 3, 3)
+    assert wrong.text == '<mass value="x"/></inertial></link>' and "^^^" in str(wrong)
+
+
+def test_arguments_of_a_wrong_kind_are_named() -> None:
+    with pytest.raises(TypeError, match="name: a text"):
+        System.from_gallery(None)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="system: a System"):
+        chetaev.ensemble("sleigh", initial={"x": [1.0]})  # type: ignore[arg-type]
+    sleigh = System.from_gallery("chaplygin-sleigh")
+    for flags in ({"project": "no"}, {"keep_integrals": "False"}):
+        with pytest.raises(TypeError, match="True or False"):
+            sleigh.simulate(t_end=1, **flags)  # type: ignore[arg-type]
+
+
+def test_values_are_given_in_the_units_of_the_model() -> None:
+    """A pendulum of 50 cm: what is computed is in SI units, sliders and given values are in centimetres. θ(t) does not depend on the mass."""
+    text: dict[str, Any] = {
+        "coordinates": {"th": "rad"}, "kinetic": "1/2 m l^2 th'^2", "potential": "-m g l cos(th)", "initial": {"th": 0.3},
+    }
+    units = {"l": {"value": 50, "unit": "cm"}, "g": {"value": 9.81, "unit": "m/s^2"}, "m": {"value": 200, "unit": "g"}}
+    system = System("u", parameters=units, **text)
+    assert (system.parameters["l"], system.parameters["m"]) == ("1/2", "1/5")
+    plain = System("u", parameters={"l": 0.5, "g": 9.81, "m": 0.2}, **text)
+    pytest.importorskip("anywidget")
+    live = system.widget(l=(40, 60), motion={"t_end": 1})
+    assert live.values == {"l": 50.0}
+    wanted = plain.simulate(t_end=1)["th"][-1]
+    assert abs(live.motion["th"][-1] - wanted) < 1e-9
 
 
 def test_python_says_what_is_wrong_with_a_file(tmp_path: Path) -> None:

@@ -21,8 +21,13 @@ pub enum ImportError {
     #[error("elements stand in each other more than {MOST_LEVELS} deep in line {0}")]
     TooDeep(u32),
     /// It is no XML, or contains what is refused: a document type with entities.
-    #[error("{0}")]
-    NotXml(String),
+    #[error("{said}")]
+    NotXml {
+        /// The line.
+        line: u32,
+        /// What is wrong.
+        said: String,
+    },
     /// The first element is that of neither format.
     #[error(
         "`<{0}>` begins no description of a robot: `<robot>` (URDF) and `<mujoco>` (MJCF) are read"
@@ -57,6 +62,19 @@ pub enum ImportError {
     },
 }
 
+impl ImportError {
+    /// The line, from 1, where one is at fault.
+    pub fn line(&self) -> Option<u32> {
+        match self {
+            ImportError::TooDeep(line)
+            | ImportError::NotXml { line, .. }
+            | ImportError::NoNumber { line, .. }
+            | ImportError::Missing { line, .. } => Some(*line),
+            ImportError::TooLarge(_) | ImportError::UnknownFormat(_) | ImportError::Empty => None,
+        }
+    }
+}
+
 /// Reads XML. A document type, and entities with it, is refused; no file is opened.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
     if text.len() > MOST_BYTES {
@@ -68,8 +86,10 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
-    Document::parse_with_options(text, options)
-        .map_err(|problem| ImportError::NotXml(problem.to_string()))
+    Document::parse_with_options(text, options).map_err(|problem| ImportError::NotXml {
+        line: problem.pos().row,
+        said: problem.to_string(),
+    })
 }
 
 /// Bounds the depth before anything is built: opening tags less closing ones.

@@ -77,8 +77,8 @@ pub enum OrbitError {
     /// Equations that contain the time, where steady motions are asked for.
     #[error("the equations contain the time, and have no steady motions in general; --orbit with --period follows periodic ones")]
     NotAutonomous,
-    /// Equations without a value at a state.
-    #[error("the equations have no value at a state: {0}")]
+    /// Equations without a value, or without derivatives, at a state.
+    #[error("the equations, or their derivatives, have no value at a state that was met, as sqrt(x^2 + y^2) has no derivative where it vanishes: {0}")]
     NoEvaluation(#[from] chetaev_integrate::EvaluationFailure),
     /// Initial data that constraints do not determine.
     #[error("the initial state does not follow from what is given: state {names} in [initial] too, so that it can be varied")]

@@ -23,6 +23,7 @@ use chetaev::study::{
     ClaimSelection, StudyError, StudyOptions,
 };
 use chetaev::symbolic::print::{sympy_module, Document, Options, PythonSection};
+use chetaev::symbolic::rational;
 use pyo3::prelude::*;
 
 /// A model that was read without errors.
@@ -337,6 +338,21 @@ impl Model {
             .chain(parameters)
             .chain(masses)
             .filter_map(|(name, unit)| Some((name.as_str(), unit.as_ref()?.text.as_str())))
+            .collect()
+    }
+
+    /// Factors by which numbers in units that are no SI base units become such, by the names of parameters.
+    #[getter]
+    fn factors(&self) -> Vec<(&str, f64)> {
+        let own = self.model.parameters.iter();
+        own.filter_map(|own| Some((own.name.as_str(), own.unit.as_ref()?)))
+            .filter(|(_, unit)| !unit.is_coherent())
+            .map(|(name, unit)| {
+                (
+                    name,
+                    rational::to_f64(&unit.factor) * std::f64::consts::PI.powi(unit.pi),
+                )
+            })
             .collect()
     }
 
@@ -832,9 +848,13 @@ pub(crate) fn verify(
 
 /// A model text from the description of a robot in URDF or MJCF, and what of it was not understood, by line.
 #[pyfunction]
-pub(crate) fn robot(py: Python<'_>, text: &str) -> PyResult<(String, Vec<(u32, String)>)> {
+pub(crate) fn robot(
+    py: Python<'_>,
+    path: &str,
+    text: &str,
+) -> PyResult<(String, Vec<(u32, String)>)> {
     let found = chetaev::import::import(text);
-    let found = found.map_err(|problem| problem::of_option(py, &problem))?;
+    let found = found.map_err(|problem| problem::of_description(py, &problem, (path, text)))?;
     let notes = found.notes.into_iter();
     Ok((found.text, notes.map(|n| (n.line, n.message)).collect()))
 }

@@ -135,7 +135,13 @@ fn without_flux(functional: &Functional, other: &Functional) -> Finding {
 fn not_cancelled(space: &Space, flux: &Flux, sum: Expr, verdict: Verdict) -> Verdict {
     let jets = space.jets_in(&[sum]);
     let is_of_values = !jets.is_empty() && jets.iter().all(|jet| jet.by.is_empty());
-    if flux.is_stated || is_of_values || !matches!(verdict, Verdict::Refuted(_)) {
+    if !matches!(verdict, Verdict::Refuted(_)) {
+        return verdict;
+    }
+    if jets.is_empty() {
+        return Verdict::undecided("without fields in it, their sum may cancel with that on another piece, which was not compared");
+    }
+    if flux.is_stated || is_of_values {
         return verdict;
     }
     Verdict::undecided("no flux is stated, and with another one than that which was found they may")

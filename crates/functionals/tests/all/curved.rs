@@ -174,3 +174,45 @@ fn what_is_false_where_the_edge_is_straight_is_false() {
     let (word, detail) = verdict(&text.replace("w,ii - curvature_ii n_j w,j", "n_i n_j w,ij"));
     assert_eq!(word, "proved", "{detail}");
 }
+
+/// A membrane with surface tension on S_s, whose edge ends where the displacement is given: the energy ½ (|∇u|² − (∂u/∂n)²) of its slope along S_s has
+/// the condition ∂u/∂n − Δ_S u = P there and none at the ends, where u is not varied. Δ_S u = Δu − ∂²u/∂n² − H ∂u/∂n. Where nothing is given at
+/// the ends the slopes along both pieces have to cancel, which is not stated.
+#[test]
+fn what_is_given_on_one_piece_is_not_varied_where_another_ends() {
+    let text = |held: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 u,i u,i - q u\"\nyields = [\"e\", \"s\", \"o\"]\n[sizes]\nd = 2\n[domain]\n\
+             coordinates = \"x_i\"\nboundary = [\"S_u\", \"S_s\"]\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n\
+             P = {{ kind = \"scalar\", on = \"S_s\" }}\n[boundary]\n\"S_u\" = {held}\n\"S_s\" = \"1/2 u,i u,i - 1/2 (n_i u,i)^2 - P u\"\n\
+             [equations]\ne = \"u,ii + q = 0\"\n\
+             s = {{ equation = \"n_i u,i - u,ii + n_i n_j u,ij + curvature_ii n_j u,j = P\", on = \"S_s\" }}\n\
+             o = {{ equation = \"n_i u,i = n_i u,i\", on = \"S_u\" }}\n"
+        )
+    };
+    let study = studied_text("p4p", &text("{ fixed = [\"u\"] }"), &[]);
+    let own = decided(&study, "functional.euler");
+    assert_eq!(own.word(), "proved", "{}", own.detail());
+    assert!(own.detail().contains("smooth"), "{}", own.detail());
+    let free = text("\"0\"").replace(
+        "o = { equation = \"n_i u,i = n_i u,i\"",
+        "o = { equation = \"n_i u,i = 0\"",
+    );
+    let study = studied_text("p4p", &free, &[]);
+    let own = decided(&study, "functional.euler");
+    assert_ne!(own.word(), "proved", "{}", own.detail());
+}
+
+/// Normals are one where two pieces meet smoothly, and at the corner of a half disc they are not: what is proved there says so.
+#[test]
+fn what_is_proved_where_curved_pieces_meet_says_how() {
+    let text = "kind = \"functional\"\nname = \"m\"\ndensity = \"1/2 u,i u,i - q u\"\nyields = [\"e\", \"a\", \"b\", \"v\"]\n[sizes]\nd = 2\n\
+                [domain]\ncoordinates = \"x_i\"\nboundary = [\"S_u\", \"S_s\"]\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n\
+                P = { kind = \"scalar\", on = \"S_u\" }\n[boundary]\n\"S_u\" = \"-P u\"\n\"S_s\" = \"0\"\n[equations]\ne = \"u,ii + q = 0\"\n\
+                a = { equation = \"n_i u,i = P\", on = \"S_u\" }\nb = { equation = \"n_i u,i = 0\", on = \"S_s\" }\n\
+                v = { equation = \"P = 0\", on = \"S_u, S_s\" }\n";
+    let study = studied_text("p4p", text, &[]);
+    let own = decided(&study, "functional.euler");
+    let is_named = own.detail().contains("meet with a common tangent plane");
+    assert!(own.word() != "proved" || is_named, "{}", own.detail());
+}

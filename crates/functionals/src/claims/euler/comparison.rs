@@ -3,7 +3,7 @@
 
 use super::squares;
 use crate::elimination::{Entries, Group, Pivot, Solved};
-use crate::functional::{Equation, Functional, Piece, Role};
+use crate::functional::{Equation, Functional, Piece, Role, Side};
 use crate::variation::{acting_at_edge, at_edge, Condition, Corner, OnPiece, Trace, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -243,7 +243,11 @@ impl<'f> Comparison<'f> {
         let pieces = &self.variation.pieces;
         for (at, one) in pieces.iter().enumerate() {
             for other in &pieces[at + 1..] {
-                let components = acting_at_edge(one, other);
+                // What is given on one of them is not varied where they meet.
+                let mut components = acting_at_edge(one, other);
+                components.retain(|&component| {
+                    ![one, other].iter().any(|on| self.is_given(on, component))
+                });
                 if components.is_empty() || functional.space.dimensions() == 1 {
                     continue;
                 }
@@ -269,6 +273,11 @@ impl<'f> Comparison<'f> {
                 }
             }
         }
+    }
+
+    fn is_given(&self, on: &OnPiece, component: usize) -> bool {
+        let piece = self.functional.piece(&on.piece);
+        piece.is_some_and(|own| own.fixed.contains(&(component, false)))
     }
 
     fn equation(&self, equation: &Equation, where_holds: &Solved<'f>, derived: &[Expr]) -> Judged {
@@ -498,19 +507,11 @@ impl<'f> Comparison<'f> {
             );
         }
         proof.on = on(&pivots, inverted);
-        if self
-            .variation
-            .pieces
-            .iter()
-            .filter(|p| !p.slopes.is_empty())
-            .count()
-            > 1
-        {
-            proof
-                .on
-                .push_str("; curved pieces meet with a common tangent plane");
-        }
         proof.detail = self.detail();
+        if let Some(said) = self.on_smooth_pieces() {
+            proof.on.push_str(&format!("; {said}"));
+            proof.detail.push_str(&format!(", where {said}"));
+        }
         for pivot in &pivots {
             if pivot.entries != Entries::Normal {
                 proof.detail.push_str(&pivot.said());
@@ -520,6 +521,36 @@ impl<'f> Comparison<'f> {
             proof.detail.push_str(&format!(", {more}"));
         }
         Verdict::Proved(proof)
+    }
+
+    /// What is taken of curved pieces whose edges matter: of one with derivatives along it, and of two where something is stated at their meeting.
+    fn on_smooth_pieces(&self) -> Option<&'static str> {
+        let functional = self.functional;
+        let is_curved = |own: &&Piece| matches!(own.side, Side::Curved);
+        let bent = self
+            .variation
+            .pieces
+            .iter()
+            .filter(|own| !own.slopes.is_empty());
+        let bent = bent
+            .filter_map(|own| functional.piece(&own.piece))
+            .filter(is_curved)
+            .count();
+        let places = functional
+            .equations
+            .iter()
+            .filter_map(|own| functional.meeting(own.on.as_deref()?));
+        let meets = places
+            .into_iter()
+            .any(|own| own.iter().copied().filter(is_curved).count() > 1);
+        if functional.space.dimensions() == 1 {
+            return None;
+        }
+        match (bent, meets) {
+            (0, false) => None,
+            (1, false) => Some("the curved piece is smooth, without corners"),
+            _ => Some("curved pieces are smooth and meet with a common tangent plane"),
+        }
     }
 
     /// Whether the Euler equations and natural conditions contradict each other, so that there is nothing to compare.
