@@ -182,8 +182,9 @@ class FunctionalStudy(Result):
         Whether everything is as the model expects: exit status 0 of the command.
     """
 
-    def __init__(self, record: str, summary: str, page: str, is_as_expected: bool) -> None:
+    def __init__(self, functional: Functional, record: str, summary: str, page: str, is_as_expected: bool) -> None:
         super().__init__(json.loads(record), summary)
+        self._functional = functional
         self._page = page
         self.ok = is_as_expected
         self.verdicts = [Verdict(own) for own in self._data["verdicts"]]
@@ -211,6 +212,26 @@ class FunctionalStudy(Result):
             The text.
         """
         return self._text
+
+    def to_latex(self) -> str:
+        """The Euler equations and natural conditions in LaTeX, as :meth:`FieldDerivation.to_latex` has them.
+
+        Returns
+        -------
+        str
+            A text for a document with amsmath.
+        """
+        return self._functional.derive().to_latex()
+
+    def to_sympy(self) -> dict[str, list[Any]]:
+        """The Euler equations and natural conditions in SymPy, as :meth:`FieldDerivation.to_sympy` has them.
+
+        Returns
+        -------
+        dict from str to list of sympy expressions
+            What vanishes, by headings.
+        """
+        return self._functional.derive().to_sympy()
 
     def report(self) -> str:
         """The report, one HTML page.
@@ -483,7 +504,7 @@ class Functional(Shown):
         """
         named = words("claims", claims) or ""
         with _Progress(progress) as tell:
-            found = FunctionalStudy(*self._native.study(named, tell))
+            found = FunctionalStudy(self, *self._native.study(named, tell))
         if out is not None:
             found._data["files"] = found._save(out)
             found._folder = os.path.abspath(out)

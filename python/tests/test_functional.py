@@ -77,6 +77,14 @@ def test_equations_go_to_sympy() -> None:
     assert sp.expand(found[0].lhs - found[0].rhs - (tension * bent - rho * accelerated)) == 0
 
 
+def test_a_study_gives_the_equations_that_it_is_about() -> None:
+    string = Functional.from_text(STRING)
+    study = string.study()
+    for own in (study, pickle.loads(pickle.dumps(study))):
+        assert own.to_latex() == string.derive().to_latex() and "\\rho" in own.to_latex()
+        assert own.to_sympy() == string.derive().to_sympy()
+
+
 def test_results_are_displayed(hu_washizu: Functional) -> None:
     bundle = hu_washizu.study(claims="functional.euler")._repr_mimebundle_()
     assert "<details>" in bundle["text/html"] and "proved" in bundle["text/html"]
