@@ -174,8 +174,10 @@ impl ClosedSystem {
     }
 }
 
-/// Coordinates at rest in the motion whose rates depend on themselves, as the angle at the hitch of a trailer without mass does: they move by
-/// no quadrature, whether forces depend on them or not.
+/// Coordinates whose rates depend on themselves, as the angle at the hitch of a trailer without mass does: they move by no quadrature, whether
+/// forces depend on them or not. Such are those at rest in the motion, and all that run by themselves where the quasi-velocities vanish, as
+/// `p' = 1/4 − sin p` does: no symmetry makes that run uniform. The angles of a ball that spins depend on themselves too, and are ignorable: their
+/// rates are linear in the quasi-velocities.
 fn standing(system: &System, c: &Characteristics, point: &[(Symbol, f64)]) -> Vec<usize> {
     let g = &system.graph;
     let find = |s: Symbol| {
@@ -195,9 +197,14 @@ fn standing(system: &System, c: &Characteristics, point: &[(Symbol, f64)]) -> Ve
             .or_else(|| find(s))
             .or(Some(SOMEWHERE))
     };
+    let still: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.value, g.zero())).collect();
+    let drifts = g.substitute_all(&c.velocities, &still);
     let is_standing = |&j: &usize| {
         let coordinate = &system.coordinates[j];
         let rate = c.velocities[j];
+        if without(g, &[drifts[j]], coordinate.q).is_none() {
+            return true;
+        }
         let moved = || {
             g.evaluate_f64(&[rate], &value)
                 .map_or(f64::NAN, |found| found[0])

@@ -633,3 +633,32 @@ fn a_motion_without_closed_form_hides_none_of_another_chart() {
         "{places:?}"
     );
 }
+
+/// A coordinate that runs by itself, p' = 1/4 − sin p, rests where sin p = 1/4 alone, though no force depends on it; x' = v runs uniformly. So p = 0 is
+/// no steady motion, and there is one of them for each of the two zeros.
+#[test]
+fn what_runs_by_itself_is_no_ignorable_coordinate() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "p"]
+parameters = { v = 2 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 p'^2"
+[constraints]
+drive = "x' = v"
+first = "p' = 1/4 - sin(p)"
+[steady.here]
+p = "asin(1/4)"
+[steady.fast]
+p = 0
+"#,
+    );
+    let own = found(&case);
+    assert_eq!(own.ignorable.len(), 1, "{:?}", own.ignorable);
+    let angle = 0.25_f64.asin();
+    are(&own, &[&[angle], &[std::f64::consts::PI - angle]]);
+    let said = case.said("stability.spectral", "fast");
+    assert!(said.contains("not steady"), "{said}");
+    // δp' = −cos p δp.
+    assert_eq!(case.said("stability.asymptotic", "here"), "proved");
+}
