@@ -66,10 +66,9 @@ fn write_stub() -> u8 {
     if built != 0 {
         return built;
     }
-    let written = stub(&library(&root)).and_then(|text| {
-        let place = root.join("python").join("chetaev").join(STUB);
-        std::fs::write(place, text).map_err(|problem| problem.to_string())
-    });
+    let place = root.join("python").join("chetaev").join(STUB);
+    let made = stub(&library(&root)).map_err(std::io::Error::other);
+    let written = made.and_then(|text| std::fs::write(place, text));
     match written {
         Ok(()) => 0,
         Err(problem) => {

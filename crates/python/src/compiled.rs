@@ -1,7 +1,7 @@
 //! Equations of motion as functions over NumPy arrays.
 
 use crate::address::{Data, Door};
-use crate::annotated::{ArrayLike, Doubles, Target, Vector};
+use crate::annotations::{ArrayLike, Doubles, Target, Vector};
 use crate::program::{Program, Ready};
 use crate::texts::Pairs;
 use crate::{problem, waiting};

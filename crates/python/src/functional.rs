@@ -1,6 +1,6 @@
 //! A functional of fields over space, and what can be asked of it.
 
-use crate::annotated::Tell;
+use crate::annotations::Tell;
 use crate::texts::{files_beside, not_written, text_at, with_overrides, Pairs};
 use crate::{problem, waiting};
 use chetaev::functionals::read::reload;

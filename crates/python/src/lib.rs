@@ -3,10 +3,10 @@
 //! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
 //!
 //! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function, `address`: the same for callers that know C only; `sweep`: many trajectories; `functional`: a functional over space;
-//! - `annotated`: what the stub says of functions and arrays; `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
+//! - `annotations`: what the stub says of functions and arrays; `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
 
 mod address;
-mod annotated;
+mod annotations;
 mod compiled;
 mod functional;
 mod linear;

@@ -1,6 +1,6 @@
 //! A model, and what can be asked of it.
 
-use crate::annotated::{Checksum, Keywords, Tell};
+use crate::annotations::{Checksum, Keywords, Tell};
 use crate::compiled::Compiled;
 use crate::linear::Linear;
 use crate::outcome::Outcome;

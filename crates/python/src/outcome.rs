@@ -1,6 +1,6 @@
 //! A study with its motion.
 
-use crate::annotated::{Matrix, Tell, Vector};
+use crate::annotations::{Matrix, Tell, Vector};
 use crate::{problem, waiting};
 use chetaev::study::picture::{self, Scene, View};
 use chetaev::study::table::Table;

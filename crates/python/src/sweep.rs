@@ -1,6 +1,6 @@
 //! Many trajectories of one model: `sweep`.
 
-use crate::annotated::{Column, Numbers, Tell};
+use crate::annotations::{Column, Numbers, Tell};
 use crate::texts::Pairs;
 use crate::{problem, waiting};
 use chetaev::ensemble::pool::{self, Batch};

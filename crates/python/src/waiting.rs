@@ -1,6 +1,6 @@
 //! Long work on a thread of its own, while the thread of Python hears signals and shows progress.
 
-use crate::annotated::Tell;
+use crate::annotations::Tell;
 use chetaev::study::{interruptible, Hooks};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;

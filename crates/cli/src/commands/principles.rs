@@ -20,9 +20,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         .unwrap_or_else(|| files::default_folder(&arguments.model.model));
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
-        let written = match arguments.compare {
-            true => write_all(&study, &folder, hooks),
-            false => Ok(Written::default()),
+        let written = if arguments.compare {
+            write_all(&study, &folder, hooks)
+        } else {
+            Ok(Written::default())
         };
         Ok::<_, StudyError>((study, written))
     });
