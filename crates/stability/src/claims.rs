@@ -19,7 +19,8 @@ pub use sets::{StatesOfRest, SteadyMotions};
 pub use spectral::Spectral;
 pub use stated::Stated;
 
-use crate::decision::{verdict, Statement};
+use crate::about::Statement;
+use crate::decision::verdict;
 use crate::evidence::{motions, requires};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 

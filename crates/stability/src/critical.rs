@@ -3,8 +3,8 @@
 //! All equations but one are solved along a curve that begins in the direction of the null vector n; what is left begins with `c xᵐ`. For a simple zero that
 //! is the motion on the centre manifold, `x' = c xᵐ + …`; for a chain `A g = n` it is `x' = y`, `y' = c xᵐ + …` where y = 0.
 
+use crate::about::About;
 use crate::branching::{Branching, Leading};
-use crate::decision::About;
 use crate::levels::Levels;
 use crate::steady::{closed, kernel, solution, times};
 use chetaev_symbolic::Expr;

@@ -1,6 +1,6 @@
 //! What claims on motions have in common: their subjects, their hypothesis, and what contradicts them.
 
-use crate::decision::About;
+use crate::about::About;
 use crate::enclosure::right_of_axis;
 use crate::spectrum::Polynomial;
 use chetaev_mechanics::claims::Context;

@@ -11,7 +11,7 @@
 //! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family split off; [`spectrum`]: its factors, those that are
 //!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] and [`singular`] in double precision, [`enclosure`] one that is proved.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
-//!    [`real_roots`]; [`question`] puts it together.
+//!    [`real_roots`]; [`question`] puts it together; `about` keeps what is derived of a motion once, and `decision` decides a statement on it over the range of a parameter.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
 //!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
 //!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`, that of a `critical` direction.
@@ -21,6 +21,7 @@
 //!    [`guess`]: the one that is meant by guesses.
 //! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
+mod about;
 pub mod admissible_values;
 mod branch;
 mod branching;

@@ -1,6 +1,6 @@
 //! What a theorem on stability is, and what it says.
 
-use crate::decision::About;
+use crate::about::About;
 use crate::hurwitz::Boundary;
 use crate::question::Place;
 use chetaev_symbolic::Expr;

@@ -1,6 +1,6 @@
 //! All transversal eigenvalues lie left of the axis.
 
-use crate::decision::{About, Said, Statement};
+use crate::about::{About, Said, Statement};
 use crate::evidence::{counted, unstable};
 use crate::hurwitz::Crossing;
 use crate::multiplicity::defects;

@@ -1,7 +1,8 @@
 //! Values of a parameter at which stability changes.
 
+use crate::about::{about, closed_form, About};
 use crate::admissible_values::AdmissibleValues;
-use crate::decision::{about, closed_form, place_exactly, About};
+use crate::decision::place_exactly;
 use crate::evidence::motions;
 use crate::hurwitz::{Boundary, Crossing, Ranges, Region};
 use crate::isolation::Root;

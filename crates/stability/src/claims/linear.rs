@@ -1,6 +1,6 @@
 //! No eigenvalue lies right of the axis, and those on it are semisimple.
 
-use crate::decision::{About, Said, Statement};
+use crate::about::{About, Said, Statement};
 use crate::evidence::{counted, unstable};
 use crate::multiplicity::{defects, where_kernels_grow, Defect};
 use crate::question::Place;

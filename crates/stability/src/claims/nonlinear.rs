@@ -1,6 +1,6 @@
 //! The motion itself is stable.
 
-use crate::decision::{About, Said, Statement};
+use crate::about::{About, Said, Statement};
 use crate::hurwitz::Boundary;
 use crate::methods::METHODS;
 use crate::question::Place;

@@ -1,6 +1,6 @@
 //! No eigenvalue lies right of the axis.
 
-use crate::decision::{About, Said, Statement};
+use crate::about::{About, Said, Statement};
 use crate::evidence::unstable;
 use crate::hurwitz::Crossing;
 use crate::question::Place;

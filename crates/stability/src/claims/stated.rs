@@ -1,7 +1,7 @@
 //! The motion that the model names is admissible and steady.
 
+use crate::about::about;
 use crate::admissible_values::AdmissibleValues;
-use crate::decision::about;
 use crate::evidence::motions;
 use crate::problem::LinearizationError;
 use crate::question::Question;

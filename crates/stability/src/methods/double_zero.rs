@@ -3,8 +3,8 @@
 //! On the centre manifold the motion is `x' = y`, `y' = c xᵐ + …` where y = 0. Where m is even the equilibrium has a cusp or is a saddle and node in one, and where
 //! m is odd and c positive it is a saddle (Dumortier, Llibre, Artés 2006, theorem 3.5): unstable. Where m is odd and c negative further terms decide.
 
+use crate::about::About;
 use crate::critical::{Critical, First};
-use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
 use crate::theorem::{Answer, Instability, Method};

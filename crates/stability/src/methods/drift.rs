@@ -5,7 +5,7 @@
 //! that manifold, on which the motion is `F' = 0`, `y' = (F − F⁰) b` with `b ≠ 0` at the motion. Where F differs from its value, however little,
 //! y leaves a neighbourhood: the motion is unstable. (Liebscher 2015, ch. 2 and 4, on manifolds of equilibria that lose their normal hyperbolicity.)
 
-use crate::decision::About;
+use crate::about::About;
 use crate::integrals::Jet;
 use crate::question::Place;
 use crate::real_roots::bounds_at;

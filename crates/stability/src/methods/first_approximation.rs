@@ -1,6 +1,6 @@
 //! Lyapunov's first method (Lyapunov 1892), and the theorem of Lyapunov and Malkin on families of steady motions (Malkin 1952).
 
-use crate::decision::About;
+use crate::about::About;
 use crate::evidence::unstable;
 use crate::question::Place;
 use crate::theorem::{Answer, Instability, Method};

@@ -6,9 +6,9 @@
 //! Lagrange and Dirichlet where V is the energy). For a natural system at rest, with forces of a potential only, it is unstable where `W_m` takes
 //! negative values: there are motions that leave the equilibrium (Kozlov and Palamodov 1982, Dokl. 263; Arnold, Kozlov, Neishtadt 2006, § 6.6).
 
+use crate::about::About;
 use crate::branching::{Branching, Leading};
 use crate::bundle::{is_negative, is_positive, minors, Bundle};
-use crate::decision::About;
 use crate::integrals::{Jet, ENERGY, FINITE};
 use crate::levels::Levels;
 use crate::question::{bound_of, Place};

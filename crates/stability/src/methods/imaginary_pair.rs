@@ -7,7 +7,7 @@
 //! it is negative they go from one member of the family to another near by (Fiedler, Liebscher, Alexander 2000, J. Differential Equations 167).
 //! All numbers are enclosed.
 
-use crate::decision::About;
+use crate::about::About;
 use crate::hurwitz::{determinants, Boundary, Crossing};
 use crate::integrals::Jet;
 use crate::isolation::Root;

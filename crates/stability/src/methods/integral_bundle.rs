@@ -1,7 +1,7 @@
 //! Integrals as a Lyapunov function: bundles with a definite second variation (Routh 1877, Lyapunov 1892, Chetaev 1946; [`bundle`](crate::bundle)).
 
+use crate::about::About;
 use crate::bundle::Bundle;
-use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::sign_over;
 use crate::theorem::{Answer, Method};

@@ -1,6 +1,6 @@
 //! Equations that are linear themselves: what a motion beside the steady one differs by is a solution of the linear equations, however large it is.
 
-use crate::decision::About;
+use crate::about::About;
 use crate::multiplicity::{defects, where_kernels_grow};
 use crate::question::Place;
 use crate::theorem::{Answer, Instability, Method};

@@ -5,7 +5,7 @@
 //! set that the change leaves as it is, after each half turn; and a motion that meets the mirror twice is closed. All near motions are closed, and
 //! the steady one is stable.
 
-use crate::decision::About;
+use crate::about::About;
 use crate::question::Place;
 use crate::theorem::{Answer, Method};
 use chetaev_symbolic::Expr;

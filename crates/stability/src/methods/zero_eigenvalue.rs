@@ -5,9 +5,9 @@
 //! take their zeros out of the question: the theorem speaks of their levels, and what is asymptotically stable on one level stays stable beside it
 //! (Malkin 1952, § 70, on perturbations that act constantly).
 
+use crate::about::About;
 use crate::branching::HIGHEST;
 use crate::critical::{Critical, First};
-use crate::decision::About;
 use crate::question::Place;
 use crate::real_roots::bounds_at;
 use crate::theorem::{Answer, Instability, Method};
