@@ -6,6 +6,7 @@
 //! brings in the curvature and leaves terms at the edges of the piece. What comes out are the coefficients of independent variations.
 
 use crate::functional::{place_of, Functional, Piece, Side};
+use crate::read::on_side;
 use crate::space::{Jet, Multi, Space};
 use chetaev_symbolic::Expr;
 use std::collections::{BTreeMap, BTreeSet};
@@ -148,10 +149,7 @@ pub fn variation(functional: &Functional) -> Result<Variation, VariationError> {
             .map(|(jet, value)| (jet, lagrange.settled(space, value)))
             .filter(|(_, value)| !space.graph.is_zero(*value))
             .collect();
-        let (own, ends) = match piece.side {
-            Side::Curved => (curved(functional, piece, &settled)?, Vec::new()),
-            Side::Flat { axis, .. } => flat(functional, piece, axis, &settled)?,
-        };
+        let (own, ends) = conditions(functional, piece, &settled)?;
         pieces.push(own);
         for corner in ends {
             let swapped = (corner.pieces.1.clone(), corner.pieces.0.clone());
@@ -357,6 +355,30 @@ pub(crate) fn flux(
         }
     }
     Ok(flux)
+}
+
+/// The coefficients of independent variations on a piece, and what is left where it ends.
+fn conditions(
+    functional: &Functional,
+    piece: &Piece,
+    form: &Form,
+) -> Result<(OnPiece, Vec<Corner>), VariationError> {
+    match piece.side {
+        Side::Curved => Ok((curved(functional, piece, form)?, Vec::new())),
+        Side::Flat { axis, .. } => flat(functional, piece, axis, form),
+    }
+}
+
+/// Whether a form has no coefficient of an independent variation on a piece: it vanishes up to a divergence along the piece.
+pub(crate) fn vanishes_on(functional: &Functional, piece: &Piece, form: &Form) -> bool {
+    let space = &*functional.space;
+    let Ok((on, _)) = conditions(functional, piece, form) else {
+        return false;
+    };
+    on.conditions.iter().all(|own| {
+        let value = on_side(&functional.scope, &piece.side, own.value);
+        space.graph.is_zero(value) || space.vanish(&[value])
+    })
 }
 
 /// The coefficients of the variations and their derivatives on a piece, before anything is moved off them.

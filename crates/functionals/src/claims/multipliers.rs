@@ -8,6 +8,7 @@ use crate::functional::{Equation, Field, Functional, Relation, Release};
 use crate::notation::{parse_sides, Kind, Node};
 use crate::read::on_side;
 use crate::variation::{euler_expression, euler_with, variation, Held, Variation};
+use chetaev_symbolic::syntax::Span;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -227,11 +228,9 @@ impl Way<'_> {
         };
         let term = on_side(&self.above.scope, &above.side, self.term()?);
         let caption = format!("1. ({}) is released on {name}", self.equation.label);
-        let released = Formula::new(caption, own.density);
-        formulas.push(match &own.tree {
-            Some(tree) => released.written(tree, &self.functional.scope),
-            None => released,
-        });
+        let none = Node::number(0, Span::new(0, 0));
+        let tree = own.tree.as_ref().unwrap_or(&none);
+        formulas.push(Formula::new(caption, own.density).written(tree, &self.functional.scope));
         let caption = format!("2. on {name} the multiplier {} times", self.release.written);
         formulas.push(self.paired(caption, term));
         self.vanishes(

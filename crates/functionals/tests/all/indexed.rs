@@ -60,18 +60,16 @@ fn same(a: &str, b: &str) -> bool {
     a.split(':').next() == b.split(':').next() && key(a) == key(b)
 }
 
-// P0c has second derivatives inside a gradient; it is shown in components.
 #[test]
-fn every_row_without_multipliers_has_its_equations_in_index_notation() {
-    for row in ROWS.iter().filter(|row| !matches!(**row, "pc" | "p0c")) {
+fn every_row_has_its_equations_in_index_notation() {
+    for row in ROWS {
         let functional = loaded_text(row, &row_text(row), &[("d", "2")]).functional;
         let variation = variation(&functional).unwrap();
         let all = euler(&functional, &variation);
         assert!(all.iter().all(Option::is_some), "{row}: {all:?}");
         for piece in &functional.pieces {
-            // The stress of P1c is itself a gradient: its conditions are shown in components.
-            let is_short = natural(&functional, piece).is_some();
-            assert!(is_short || *row == "p1c", "{row} on {}", piece.name);
+            let own = natural(&functional, piece);
+            assert!(own.is_some(), "{row} on {}", piece.name);
         }
     }
 }
@@ -87,4 +85,36 @@ fn where_the_stress_is_the_gradient_of_the_energy_it_is_varied_as_a_whole() {
             assert!(is_there, "{row}: {line} is not among {own:#?}");
         }
     }
+}
+
+// T4 §5: on S_u, P1c and P0c yield (5), as δP_k is free there; on S_s, P1c yields (6), and P0c (8) and (6).
+#[test]
+fn conditions_of_rows_whose_stress_is_a_gradient_are_those_of_the_theory() {
+    let cases: [(&str, &[&str]); 3] = [
+        ("p1c", &["S_u P_k: u_k - ubar_k", "S_s u_k: Pbar_k - P_k"]),
+        (
+            "p0c",
+            &[
+                "S_u P_k: u_k - ubar_k",
+                "S_s P_k: u_k - ub_k",
+                "S_s ub_k: Pbar_k - P_k",
+            ],
+        ),
+        ("pc", &["S_u P_k: u_k - ubar_k"]),
+    ];
+    for (row, wanted) in cases {
+        for d in ["1", "2", "3"] {
+            let own = equations(row, &[("d", d)]);
+            let on: Vec<&String> = own.iter().filter(|one| one.starts_with("S_")).collect();
+            assert_eq!(on, wanted.iter().collect::<Vec<_>>(), "{row} at d = {d}");
+        }
+    }
+}
+
+// Pc at its solution: the strain B' is that of the displacement (2), the symmetric part of the gradient with half the square.
+#[test]
+fn a_coefficient_of_a_symmetric_field_is_its_symmetric_part_without_repeating_terms() {
+    let own = equations("pc", &[("d", "2")]);
+    let line = "s_ij: B'_ij(s) - 1/2 u_k,i u_k,j - 1/2 u_j,i - 1/2 u_i,j";
+    assert!(own.iter().any(|o| same(o, line)), "{own:#?}");
 }

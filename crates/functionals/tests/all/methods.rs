@@ -235,6 +235,14 @@ fn every_level_comes_from_the_one_above_by_a_multiplier() {
             detail.contains("the semi-inverse method builds it from"),
             "{row}: {detail}"
         );
+        let own = study.verdicts.iter();
+        let own = own.filter(|own| own.full_id().starts_with("functional.multipliers"));
+        let formulas = own.flat_map(|own| &own.finding.formulas);
+        for (at, formula) in formulas.enumerate() {
+            let number = format!("{}. ", at + 1);
+            assert!(formula.caption.starts_with(&number), "{row}: {formula:?}");
+            assert!(formula.indexed.is_some(), "{row}: {formula:?}");
+        }
         // With the opposite sign, or with something in the place of nothing, it is no multiplier.
         let other = match multiplier.strip_prefix("0 ") {
             Some(field) => field.to_owned(),

@@ -24,7 +24,7 @@ use chetaev_symbolic::simplify;
 use chetaev_symbolic::Expr;
 
 /// Longer equations are announced, not printed.
-const LEGIBLE: u64 = 2_500;
+pub(super) const LEGIBLE: u64 = 2_500;
 
 /// The HTML page of a study.
 pub fn page(study: &Study, command: Option<String>) -> String {

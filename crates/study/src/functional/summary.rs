@@ -4,6 +4,7 @@ use super::equations::{
     absent, boundary, dependence, euler, given, in_order, indexed_euler, indexed_natural, joined,
     kind, restricting, used, Indexed, Shown,
 };
+use super::page::LEGIBLE;
 use super::table;
 use crate::layout::{hanging, terms};
 use crate::summary::{bold, coloured, Style};
@@ -89,14 +90,24 @@ fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) 
         let line = written_equation(&own.value, &f.scope, Format::Text);
         text.push_str(&terms(&format!("    {:<12} ", own.of), &line));
     }
-    let is_short = |own: &Shown| simplify::length(g, own.value) <= WRITTEN;
+    let longest = shown.iter().map(|own| simplify::length(g, own.value));
+    let longest = longest.max().unwrap_or(0);
     if indexed.is_empty() {
         equations(text, study, shown);
-    } else if shown.iter().all(is_short) {
+    } else if longest <= WRITTEN {
         let _ = writeln!(text, "   in components");
         equations(text, study, shown);
     } else {
-        let _ = writeln!(text, "   in components: in the report");
+        let _ = writeln!(text, "   in components: in {}", place_of(longest));
+    }
+}
+
+/// Where an expression stands that is too long for the terminal.
+fn place_of(signs: u64) -> &'static str {
+    if signs <= LEGIBLE {
+        "the report"
+    } else {
+        "study.json"
     }
 }
 
@@ -233,7 +244,7 @@ fn equations(text: &mut String, study: &Study, all: &[Shown]) {
     for shown in all {
         let signs = simplify::length(g, shown.value);
         let written = if signs > WRITTEN {
-            format!("an expression of {signs} signs, in the report")
+            format!("an expression of {signs} signs, in {}", place_of(signs))
         } else {
             format!("{} = 0", g.text(shown.value))
         };
