@@ -435,16 +435,42 @@ impl<'f> Inserted<'f> {
         if kernel.is_empty() {
             return format!("no variation by polynomials of degree {DEGREE} is admissible, so that there is nothing to vary");
         }
-        let none = if idle.is_empty() {
-            String::new()
-        } else {
-            format!(", none of which varies {}", idle.join(", "))
+        let mut free = match &kernel[..] {
+            [only] => format!(
+                "1 of {all} coefficients is free: {}",
+                self.written(ansatz, only).join(", ")
+            ),
+            many => format!("{} of {all} coefficients are free", many.len()),
         };
+        if !idle.is_empty() {
+            free.push_str(&format!(", which does not vary {}", idle.join(", ")));
+        }
         format!(
-            "the first variation vanishes for all admissible variations of {} by polynomials of degree {DEGREE} ({} of {all} coefficients are free{none})",
+            "the first variation vanishes for all admissible variations of {} by polynomials of degree {DEGREE} ({free})",
             fields.join(", "),
-            kernel.len()
         )
+    }
+
+    /// `δu_1 = c x_1` for each component that a vector of coefficients varies.
+    fn written(&self, ansatz: &[(usize, Vec<Expr>)], vector: &[Expr]) -> Vec<String> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let variable = space.coordinates.first().map(|c| c.expr);
+        let mut coefficients = vector.iter().copied();
+        let varied = ansatz.iter().map(|(component, own)| {
+            let powers = coefficients.by_ref().take(own.len()).enumerate();
+            let terms: Vec<Expr> = powers
+                .filter_map(|(k, e)| Some(g.mul(&[e, g.powi(variable?, k as i64)])))
+                .collect();
+            (space.component_at(*component).name, g.add(&terms))
+        });
+        varied
+            .filter(|(_, e)| !g.is_zero(*e))
+            .map(|(name, e)| {
+                let scaled = g.mul(&[g.symbol("c", 0), e]);
+                format!("δ{name} = {}", g.text(scaled))
+            })
+            .collect()
     }
 
     /// Every component that is varied with the coefficients of its polynomial; on a piece it is a number.
