@@ -14,7 +14,9 @@ use std::cmp::Ordering;
 pub enum Sign {
     /// It is positive everywhere.
     Positive,
-    /// It is nowhere negative, and has zeros.
+    /// It is nowhere negative, and has zeros at the ends alone.
+    PositiveInside,
+    /// It is nowhere negative, and has zeros inside.
     Nonnegative,
     /// It vanishes identically.
     Zero,
@@ -27,7 +29,10 @@ pub enum Sign {
 impl Sign {
     /// Whether it is nowhere negative.
     pub fn is_nonnegative(&self) -> bool {
-        matches!(self, Sign::Positive | Sign::Nonnegative | Sign::Zero)
+        matches!(
+            self,
+            Sign::Positive | Sign::PositiveInside | Sign::Nonnegative | Sign::Zero
+        )
     }
 }
 
@@ -145,7 +150,7 @@ fn middle(lower: &Rational, upper: &Rational) -> Rational {
 fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
     // Zeros at the ends are divided out: they do not change the sign inside.
     let mut own = trimmed(p);
-    let mut has_zeros = false;
+    let (mut is_zero_at_end, mut is_zero_inside) = (false, false);
     for (end, factor) in [(lower, 1), (upper, -1)] {
         while own.len() > 1 && value(&own, end) == Rational::ZERO {
             let line = [
@@ -153,7 +158,7 @@ fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
                 rational::integer(factor),
             ];
             own = divided(&own, &line).0;
-            has_zeros = true;
+            is_zero_at_end = true;
         }
     }
     let sequence = sequence(&own);
@@ -166,7 +171,7 @@ fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
             }
         }
         let count = changes(&sequence, &a) - changes(&sequence, &b).min(changes(&sequence, &a));
-        has_zeros |= count > 0;
+        is_zero_inside |= count > 0;
         if count < 2 {
             continue;
         }
@@ -178,10 +183,10 @@ fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
         parts.push((a, c.clone()));
         parts.push((c, b));
     }
-    if has_zeros {
-        Sign::Nonnegative
-    } else {
-        Sign::Positive
+    match (is_zero_inside, is_zero_at_end) {
+        (true, _) => Sign::Nonnegative,
+        (false, true) => Sign::PositiveInside,
+        (false, false) => Sign::Positive,
     }
 }
 
@@ -244,8 +249,8 @@ mod tests {
         let sign = |e: Expr| on_interval(&space, e, (&integer(0), &integer(2)));
         let shifted = |n: i64, d: i64| g.sub(x, g.number(ratio(n, d).unwrap()));
         assert_eq!(sign(g.add(&[g.powi(x, 2), g.one()])), Sign::Positive);
-        assert_eq!(sign(x), Sign::Nonnegative);
-        assert_eq!(sign(g.sub(g.integer(2), x)), Sign::Nonnegative);
+        assert_eq!(sign(x), Sign::PositiveInside);
+        assert_eq!(sign(g.sub(g.integer(2), x)), Sign::PositiveInside);
         assert_eq!(sign(g.powi(shifted(1, 3), 2)), Sign::Nonnegative);
         // Two zeros a thousandth apart, which no sample finds.
         let narrow = g.mul(&[shifted(1, 3), shifted(334, 1001)]);

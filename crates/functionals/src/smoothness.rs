@@ -127,12 +127,34 @@ impl<'s> Region<'s> {
         if is_contradicted(relation, sign) || self.is_violated(e, relation) {
             return Some(false);
         }
-        let signs = self.signs_on_interval(e);
-        match (signs, relation) {
-            ((Some(Sign::Positive), _), _) => Some(true),
-            ((_, Some(Sign::Positive)), Relation::NotEqual) => Some(true),
-            ((Some(Sign::Negative(_)), Some(Sign::Negative(_))), _) => Some(false),
-            _ => self.holds_at_corners(e, relation).then_some(true),
+        self.decided_by_signs(e, relation)
+            .or_else(|| self.holds_at_corners(e, relation).then_some(true))
+    }
+
+    /// What the signs on an interval say; zeros at its ends belong to a closed region alone.
+    fn decided_by_signs(&self, e: Expr, relation: Relation) -> Option<bool> {
+        let (own, opposite) = self.signs_on_interval(e);
+        let is_positive = |sign: &Sign| match sign {
+            Sign::Positive => true,
+            Sign::PositiveInside => !self.is_closed,
+            _ => false,
+        };
+        let is_never_negative = own.as_ref().is_some_and(Sign::is_nonnegative);
+        let is_somewhere_negative = matches!(own, Some(Sign::Negative(_)));
+        let is_somewhere_positive = matches!(opposite, Some(Sign::Negative(_)));
+        let is_above = own.as_ref().is_some_and(is_positive);
+        let is_below = opposite.as_ref().is_some_and(is_positive);
+        let is_known = is_never_negative || opposite.as_ref().is_some_and(Sign::is_nonnegative);
+        match relation {
+            Relation::GreaterOrEqual if is_never_negative => Some(true),
+            Relation::GreaterOrEqual | Relation::Greater if is_somewhere_negative => Some(false),
+            Relation::Greater | Relation::NotEqual if is_above => Some(true),
+            Relation::NotEqual if is_below => Some(true),
+            Relation::Greater if is_never_negative => Some(false),
+            Relation::NotEqual if is_known || (is_somewhere_negative && is_somewhere_positive) => {
+                Some(false)
+            }
+            _ => None,
         }
     }
 

@@ -43,7 +43,7 @@ pub(super) fn unfit(
     })
 }
 
-/// Something that the model assumes and that is false for special values, somewhere inside of a box.
+/// Something that the model assumes and that is false for special values, somewhere on a box with its boundary.
 fn violated(functional: &Functional, values: &[Special], intervals: &[Interval]) -> Option<String> {
     let space = &*functional.space;
     let g = &space.graph;
@@ -55,7 +55,8 @@ fn violated(functional: &Functional, values: &[Special], intervals: &[Interval])
         lower: put(own.lower),
         upper: put(own.upper),
     });
-    let region = Region::new(space, box_of_values.collect(), false);
+    // What is assumed of fields and data holds on the boundary too, where conditions use it.
+    let region = Region::new(space, box_of_values.collect(), true);
     let all = space.assumptions();
     let own = all.list().iter().find(|own| {
         let before = space.explicit(g.sub(own.left, own.right));

@@ -183,20 +183,50 @@ fn values_that_violate_an_assumption_are_none_of_the_model() {
     }
 }
 
-/// With q = −2 Ritz's method finds u = x² − x, which is negative inside of the interval, and with q = 2 the positive one.
+/// Ritz's method finds u = q (x − x²)/2 between two ends that are held, and u = q (x − x²/2) with a free end at x = 1, where u,x = 0.
 #[test]
-fn what_is_found_by_ritz_is_as_assumed() {
-    let word = |load: &str| {
-        let held = "{ fixed = [\"u\"] }";
+fn what_is_found_by_ritz_is_as_assumed_on_the_body_and_its_boundary() {
+    let held = "{ fixed = [\"u\"] }";
+    let word = |assumed: &str, load: &str, end: &str| {
         let text = format!(
-            "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 - q u\"\nassumptions = [\"u > 0\"]\n[domain]\ncoordinates = [\"x\"]\n\
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 - q u\"\nassumptions = [\"{assumed}\"]\n[domain]\ncoordinates = [\"x\"]\n\
              intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\n\"x = 0\" = {held}\n\
-             \"x = 1\" = {held}\n[ritz]\ndegrees = [1, 2]\nvalues = {{ q = \"{load}\" }}\n"
+             \"x = 1\" = {end}\n[ritz]\ndegrees = [1, 2]\nvalues = {{ q = \"{load}\" }}\n"
         );
-        decided(&studied_text("p4p", &text, &[]), "functional.ritz")
-            .word()
-            .to_owned()
+        let study = studied_text("p4p", &text, &[]);
+        let verdict = decided(&study, "functional.ritz");
+        let refused = verdict.detail().contains("violate what the model assumes");
+        assert_eq!(
+            refused,
+            verdict.word() == "not-applicable",
+            "{}",
+            verdict.detail()
+        );
+        verdict.word().to_owned()
     };
-    assert_eq!(word("-2"), "not-applicable");
-    assert_eq!(word("2"), "proved");
+    let free = "\"0\"";
+    // (what is assumed, q, the end, whether it holds)
+    let cases = [
+        ("u >= 0", "-2", held, false),
+        ("u >= 0", "2", held, true),
+        ("u > 0", "2", held, false),
+        ("u > -1/100", "2", held, true),
+        // The largest value, at x = 1/2, is 1/4.
+        ("(u - 1/4)^2 > 0", "2", held, false),
+        ("(u - 26/100)^2 > 0", "2", held, true),
+        // At the place x = 4/7, which no probe hits, u = 12/49.
+        ("(u - 12/49)^2 > 0", "2", held, false),
+        ("u,x >= 0", "2", free, true),
+        ("u,x > 0", "2", free, false),
+        ("u,x != 0", "2", free, false),
+        ("u,x > -1/100", "2", free, true),
+    ];
+    for (assumed, load, end, holds) in cases {
+        let wanted = if holds { "proved" } else { "not-applicable" };
+        assert_eq!(
+            word(assumed, load, end),
+            wanted,
+            "{assumed}, q = {load}, {end}"
+        );
+    }
 }

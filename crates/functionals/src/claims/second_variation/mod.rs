@@ -310,8 +310,8 @@ fn by_integrand(form: &Form<'_>, places: &Places) -> Option<Proof> {
             || enclosure(space, left).and_then(|own| own.sign()) == Some(Ordering::Greater)
             || enclosure(space, right).and_then(|own| own.sign()) == Some(Ordering::Greater);
         let is_strict = match rest {
-            Sign::Positive | Sign::Nonnegative => true,
-            Sign::Zero => is_held && matches!(leading, Sign::Positive | Sign::Nonnegative),
+            Sign::Positive | Sign::PositiveInside | Sign::Nonnegative => true,
+            Sign::Zero => is_held && leading != Sign::Zero && leading.is_nonnegative(),
             _ => false,
         };
         let is_positive =
