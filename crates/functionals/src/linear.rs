@@ -88,8 +88,11 @@ impl System {
         self.right[row] = rational::sum(&self.right[row], value);
     }
 
-    /// The only solution; `None` where there is none, or another one.
-    pub(crate) fn solution(mut self) -> Option<Solution> {
+    /// The only solution.
+    ///
+    /// # Errors
+    /// Numbers, not all zero, that the matrix takes to zero: there is no solution, or another one.
+    pub(crate) fn solution(mut self) -> Result<Solution, Vec<Rational>> {
         let n = self.right.len();
         let mut columns = vec![BTreeSet::new(); n];
         for (r, row) in self.rows.iter_mut().enumerate() {
@@ -102,10 +105,13 @@ impl System {
         let mut is_definite = true;
         for k in 0..n {
             // A row that leads already has no entry to the left of its pivot, and is in no later column any more.
-            let row = if columns[k].contains(&k) {
-                k
+            let found = if columns[k].contains(&k) {
+                Some(k)
             } else {
-                columns[k].first().copied()?
+                columns[k].first().copied()
+            };
+            let Some(row) = found else {
+                return Err(self.taken_to_zero(k, &order));
             };
             self.eliminate(row, k, &mut columns);
             is_definite &= row == k && !rational::is_negative(&self.rows[row][&k]);
@@ -113,17 +119,32 @@ impl System {
         }
         let mut values = vec![Rational::ZERO; n];
         for (k, &row) in order.iter().enumerate().rev() {
-            let mut sum = self.right[row].clone();
-            for (&c, entry) in self.rows[row].range(k + 1..) {
-                meter::spend(STEP);
-                sum -= rational::product(entry, &values[c]);
-            }
-            values[k] = sum / &self.rows[row][&k];
+            values[k] = self.leading(k, row, &values, self.right[row].clone());
         }
-        Some(Solution {
+        Ok(Solution {
             values,
             is_definite,
         })
+    }
+
+    /// The vector with 1 for the first unknown that no row leads with, and zeros behind it.
+    fn taken_to_zero(&self, free: usize, order: &[usize]) -> Vec<Rational> {
+        let mut values = vec![Rational::ZERO; self.right.len()];
+        values[free] = rational::integer(1);
+        for (k, &row) in order.iter().enumerate().rev() {
+            values[k] = self.leading(k, row, &values, Rational::ZERO);
+        }
+        values
+    }
+
+    /// The unknown that a row leads with, from those behind it.
+    fn leading(&self, k: usize, row: usize, values: &[Rational], right: Rational) -> Rational {
+        let mut sum = right;
+        for (&c, entry) in self.rows[row].range(k + 1..) {
+            meter::spend(STEP);
+            sum -= rational::product(entry, &values[c]);
+        }
+        sum / &self.rows[row][&k]
     }
 
     /// Makes zero what stands in a column of the other rows, those that have led already left out.
@@ -181,16 +202,17 @@ mod tests {
     fn rows_are_exchanged_where_a_pivot_vanishes() {
         // The matrix is indefinite, though its pivots after the exchange are positive.
         let own = system(&[&[0, 1], &[1, 0]], &[2, 3]).solution();
-        let own = own.filter(|own| values(own) == [3, 2] && !own.is_definite);
-        assert!(own.is_some());
+        assert!(own.is_ok_and(|own| values(&own) == [3, 2] && !own.is_definite));
     }
 
     #[test]
     fn definite_indefinite_and_singular_matrices_are_told_apart() {
         let own = system(&[&[2, 1, 0], &[1, 2, 1], &[0, 1, 2]], &[4, 8, 8]).solution();
-        assert!(own.is_some_and(|own| values(&own) == [1, 2, 3] && own.is_definite));
+        assert!(own.is_ok_and(|own| values(&own) == [1, 2, 3] && own.is_definite));
         let own = system(&[&[1, 2], &[2, 1]], &[5, 4]).solution();
-        assert!(own.is_some_and(|own| values(&own) == [1, 2] && !own.is_definite));
-        assert!(system(&[&[1, 2], &[2, 4]], &[1, 2]).solution().is_none());
+        assert!(own.is_ok_and(|own| values(&own) == [1, 2] && !own.is_definite));
+        let own = system(&[&[1, 2], &[2, 4]], &[1, 2]).solution().err();
+        let own = own.map(|own| own.iter().map(rational::to_i64).collect::<Vec<_>>());
+        assert_eq!(own, Some(vec![Some(-2), Some(1)]));
     }
 }

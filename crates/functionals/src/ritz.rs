@@ -4,7 +4,7 @@ use crate::functional::{Functional, Piece, Role, Side};
 use crate::linear::System;
 use crate::polynomial::{Domain, Polynomial};
 use crate::ritz_base::Base;
-use crate::space::Jet;
+use crate::space::{Jet, Space};
 use chetaev_symbolic::{rational, Expr, Rational};
 use std::collections::BTreeMap;
 
@@ -38,8 +38,13 @@ pub enum RitzError {
     Unknown(String),
     /// A field is given by a condition that no polynomial of the base satisfies.
     Given(String),
-    /// The equations have no unique solution.
-    Singular,
+    /// What is added to the fields at no cost, as it is written.
+    Singular {
+        /// The fields that may be added: `u = 1`.
+        added: String,
+        /// Whether the functional does not change with them; else it changes in proportion, and nothing is stationary.
+        is_idle: bool,
+    },
 }
 
 impl std::fmt::Display for RitzError {
@@ -58,9 +63,15 @@ impl std::fmt::Display for RitzError {
                 f,
                 "({label}) is imposed, and the polynomials of Ritz's method do not satisfy it: they vanish where a field is given"
             ),
-            RitzError::Singular => {
-                f.write_str("the linear equations of Ritz's method have no unique solution")
-            }
+            RitzError::Singular { added, is_idle: true } => write!(
+                f,
+                "the functional does not change when {added} is added, so that no polynomial is the only stationary one: more has to be held on the \
+                 faces"
+            ),
+            RitzError::Singular { added, is_idle: false } => write!(
+                f,
+                "no polynomial is stationary: the functional changes in proportion to c when c times {added} is added"
+            ),
         }
     }
 }
@@ -109,7 +120,9 @@ pub fn approximation(
         part.assemble(&base, &mut system);
     }
     let right = system.right.clone();
-    let solved = system.solution().ok_or(RitzError::Singular)?;
+    let solved = system
+        .solution()
+        .map_err(|added| singular(space, &base.fields(&added), (&added, &right)))?;
     // At a stationary point of a quadratic function: the constant and half of the linear part.
     let mut value = Rational::ZERO;
     for part in &parts {
@@ -125,6 +138,28 @@ pub fn approximation(
         value,
         is_minimum: solved.is_definite,
     })
+}
+
+/// What may be added; the quadratic part has none of it.
+fn singular(
+    space: &Space,
+    fields: &[(usize, Polynomial)],
+    (added, right): (&[Rational], &[Rational]),
+) -> RitzError {
+    let products = added
+        .iter()
+        .zip(right)
+        .map(|(a, b)| rational::product(a, b));
+    let change = products.fold(Rational::ZERO, |sum, own| rational::sum(&sum, &own));
+    let written = fields.iter().filter_map(|(component, polynomial)| {
+        let e = polynomial.expr(space);
+        let name = space.component_at(*component).name;
+        (!space.graph.is_zero(e)).then(|| format!("{name} = {}", space.graph.text(e)))
+    });
+    RitzError::Singular {
+        added: written.collect::<Vec<_>>().join(", "),
+        is_idle: change == Rational::ZERO,
+    }
 }
 
 /// Values of parameters and data put in.
