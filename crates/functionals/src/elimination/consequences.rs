@@ -218,10 +218,8 @@ impl<'s> Solved<'s> {
 
     /// Whether an equation is a product, so that it is no equation for what stands in one of the factors.
     pub(super) fn is_product(&self, e: Expr) -> bool {
-        let space = self.space;
-        // Where a jet has a coefficient without jets, it stands in no product with another.
-        let stands_alone = |jet: &Jet| space.jets_in(&[space.partial(e, jet)]).is_empty();
-        !space.jets_in(&[e]).iter().any(stands_alone) && self.factors_with_jets(e).len() > 1
+        // A jet with a coefficient without jets stands in no product with another.
+        !self.space.is_linear_in_a_jet(e) && self.factors_with_jets(e).len() > 1
     }
 
     /// How many components of a tensor may be changed by any functions, all else being kept, so that expressions keep their values

@@ -94,6 +94,8 @@ pub struct Space {
     vanishing: RefCell<BTreeMap<Expr, bool>>,
     /// The symbols that occur in an expression, those of functions too. The same ones are asked for at each step of an elimination.
     symbols: RefCell<FxHashMap<Expr, Rc<[Symbol]>>>,
+    /// Whether an expression has a jet with a coefficient without jets.
+    linear: RefCell<FxHashMap<Expr, bool>>,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -153,6 +155,7 @@ impl Space {
             assumptions: RefCell::default(),
             vanishing: RefCell::default(),
             symbols: RefCell::default(),
+            linear: RefCell::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }
@@ -375,6 +378,18 @@ impl Space {
         for symbol in self.symbols_in(es) {
             found.extend(self.as_jet(symbol));
         }
+        found
+    }
+
+    /// Whether an expression is linear in a jet, with a coefficient in which no jet occurs. Kept: the same equations are asked often.
+    pub(crate) fn is_linear_in_a_jet(&self, e: Expr) -> bool {
+        if let Some(&known) = self.linear.borrow().get(&e) {
+            return known;
+        }
+        let jets = self.jets_in(&[e]);
+        let mut slopes = jets.iter().map(|jet| self.partial(e, jet));
+        let found = slopes.any(|slope| self.jets_in(&[slope]).is_empty());
+        self.linear.borrow_mut().insert(e, found);
         found
     }
 
