@@ -145,6 +145,10 @@ impl Expansion<'_> {
     /// whose principal minors is negative, which is dissipation by Rayleigh's function (Thomson and Tait 1879).
     fn is_dissipated(&self, rate: Expr) -> bool {
         let g = self.graph();
+        // Most momenta grow in some states: those are found before anything is multiplied out.
+        if self.is_somewhere_positive(rate) {
+            return false;
+        }
         let rate = closed(g, self.without_signs(rate));
         if known_sign(g, rate, &assumptions(self.system)).is_nonpositive() {
             return true;
@@ -166,6 +170,22 @@ impl Expansion<'_> {
             );
         }
         is_semidefinite(g, &form) && self.vanish(&[g.add(&terms)])
+    }
+
+    /// Whether a function is positive at a state that the constraints and the assumptions admit: `f + |f|` is not zero there.
+    fn is_somewhere_positive(&self, f: Expr) -> bool {
+        let g = self.graph();
+        let implicit = self.own.characteristics.manifold.implicit.clone();
+        let constraints = [implicit, self.finite_with_unknowns()].concat();
+        let options = Options {
+            exact: false,
+            ..Options::default()
+        };
+        let twice = g.add(&[f, g.abs(f)]);
+        matches!(
+            self.decided(&[twice], &constraints, options),
+            Verdict::Refuted(_)
+        )
     }
 
     /// A function with f/|f| for the sign of f, so that `sign(f) f` is seen to be |f|.
@@ -215,15 +235,21 @@ impl Expansion<'_> {
     }
 
     fn vanish_on(&self, es: &[Expr], implicit: &[(Expr, Symbol)]) -> bool {
+        let verdict = self.decided(es, implicit, Options::default());
+        matches!(verdict, Verdict::Proved(_))
+    }
+
+    /// Whether functions of the variables vanish where constraints hold.
+    fn decided(&self, es: &[Expr], implicit: &[(Expr, Symbol)], options: Options) -> Verdict {
         let assumptions = assumptions(self.system);
         let test = ZeroTest {
             residuals: es,
             solved: &[],
             implicit,
             assumptions: &assumptions,
-            options: Options::default(),
+            options,
         };
-        matches!(decide_zero(self.graph(), &test), Verdict::Proved(_))
+        decide_zero(self.graph(), &test)
     }
 
     /// First and second derivatives at the motion.
