@@ -14,6 +14,7 @@ mod dependence;
 mod examples;
 mod half_known;
 mod indexed;
+mod inserted;
 mod methods;
 mod mutants;
 mod names;

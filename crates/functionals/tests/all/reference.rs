@@ -344,31 +344,10 @@ impl Inserted<'_> {
 
     /// Over the box, or over a piece.
     fn integral(&self, e: Expr, piece: Option<&str>) -> f64 {
-        let d = self.functional.space.dimensions();
-        let nodes = gauss();
         let side = piece
             .and_then(|name| self.functional.piece(name))
-            .map(|piece| piece.side.clone());
-        let axes: Vec<usize> = (0..d)
-            .filter(|i| !matches!(side, Some(Side::Flat { axis, .. }) if axis == *i))
-            .collect();
-        let mut points = vec![(vec![0.0; 2], 1.0)];
-        if let Some(Side::Flat { axis, is_upper, .. }) = side {
-            points[0].0[axis] = if is_upper { 1.0 } else { 0.0 };
-        }
-        for axis in axes {
-            points = points
-                .into_iter()
-                .flat_map(|(point, weight)| {
-                    nodes.iter().map(move |(x, w)| {
-                        let mut own = point.clone();
-                        own[axis] = *x;
-                        (own, weight * w)
-                    })
-                })
-                .collect();
-        }
-        points
+            .map(|piece| &piece.side);
+        nodes(self.functional.space.dimensions(), side)
             .iter()
             .map(|(point, weight)| weight * self.at(e, piece, point))
             .sum()
@@ -435,6 +414,29 @@ impl Inserted<'_> {
         }
         sum
     }
+}
+
+/// Nodes and weights over the unit square, or over a side of it.
+pub(crate) fn nodes(dimensions: usize, side: Option<&Side>) -> Vec<(Vec<f64>, f64)> {
+    let on_one = gauss();
+    let mut points = vec![(vec![0.0; 2], 1.0)];
+    if let Some(Side::Flat { axis, is_upper, .. }) = side {
+        points[0].0[*axis] = if *is_upper { 1.0 } else { 0.0 };
+    }
+    let is_constant = |i: usize| matches!(side, Some(Side::Flat { axis, .. }) if *axis == i);
+    for axis in (0..dimensions).filter(|i| !is_constant(*i)) {
+        points = points
+            .into_iter()
+            .flat_map(|(point, weight)| {
+                on_one.iter().map(move |(x, w)| {
+                    let mut own = point.clone();
+                    own[axis] = *x;
+                    (own, weight * w)
+                })
+            })
+            .collect();
+    }
+    points
 }
 
 /// Gauss's nodes and weights on the unit interval.
