@@ -1,17 +1,8 @@
 //! The table of multi-level principles (T4 §3) with energies that are stated: what is proved of a row for every energy holds for each, and
 //! neither formulas nor their conjugates make counterexamples. E3 is the energy that is not quadratic.
 
+use crate::extent::Extent;
 use crate::table::{studied_with_energy, unproved, ROWS};
-
-#[path = "../../../../tests/src/extent.rs"]
-#[allow(
-    dead_code,
-    unreachable_pub,
-    reason = "public where the tests of the workspace are"
-)]
-mod extent;
-
-use extent::Extent;
 
 const ANY: &str = "energy-abstract";
 const QUADRATIC: &str = "energy-quadratic";

@@ -16,6 +16,7 @@ mod examples;
 mod half_known;
 mod indexed;
 mod inserted;
+mod levels;
 mod methods;
 mod mutants;
 mod names;
@@ -36,3 +37,11 @@ mod strata;
 mod table;
 mod values;
 mod wholes;
+
+#[path = "../../../../tests/src/extent.rs"]
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "public where the tests of the workspace are"
+)]
+mod extent;
