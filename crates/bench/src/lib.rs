@@ -36,7 +36,7 @@ pub fn prepare(question: &Question) -> Result<Ready, String> {
         "rhs" => evaluation::right_hand_side(question),
         "trajectory" => trajectory::trajectory(question),
         "ensemble" => ensemble::ensemble(question),
-        "main-job" => main_job::main_job(question),
+        "main-job" | "table" => main_job::main_job(question),
         "drift" => drift::drift(question),
         other => Err(format!("there is no item `{other}`")),
     }

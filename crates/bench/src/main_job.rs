@@ -1,4 +1,5 @@
-//! The main job as a whole process: `chetaev study` of a model, with proofs, motion and report.
+//! Studies as whole processes: the main job, `chetaev study` of a model with proofs, motion and report; and a row of the table of multi-level
+//! principles of elasticity in three dimensions, with all its claims.
 
 use crate::prepared::words;
 use crate::question::Question;
@@ -19,7 +20,7 @@ pub fn main_job(question: &Question) -> Result<Ready, String> {
     let memory = memory(&question)?;
     Ok(Ready {
         answer: Value::Null,
-        info: json!({"memory": memory, "claims": CLAIMS}),
+        info: json!({"memory": memory, "claims": claims(&question)}),
         measure: Box::new(move || {
             let clock = Instant::now();
             let status = command(&question).status().map_err(words)?;
@@ -32,10 +33,31 @@ pub fn main_job(question: &Question) -> Result<Ready, String> {
     })
 }
 
+/// The claims that are asked for.
+fn claims(question: &Question) -> &'static str {
+    match question.item.as_str() {
+        "table" => "all",
+        _ => CLAIMS,
+    }
+}
+
+/// The model and its options.
+fn asked(question: &Question) -> Vec<String> {
+    match question.item.as_str() {
+        "table" => {
+            let model = format!("gallery/elasticity/{}/model.toml", question.system);
+            vec![model, "--set".into(), "d=3".into()]
+        }
+        _ => [MODEL, "--claims", CLAIMS].map(str::to_owned).to_vec(),
+    }
+}
+
 fn command(question: &Question) -> Command {
     let mut command = Command::new(&question.program);
     command
-        .args(["study", MODEL, "--claims", CLAIMS, "--out"])
+        .arg("study")
+        .args(asked(question))
+        .arg("--out")
         .arg(&question.scratch)
         .current_dir(&question.root)
         .stdout(Stdio::null())

@@ -5,9 +5,9 @@ use serde_json::Value;
 /// The request `prepare`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
-    /// `derive`, `rhs`, `trajectory`, `ensemble` or `drift`.
+    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift`, `main-job` or `table`.
     pub item: String,
-    /// `disc`, `snake-8`, …
+    /// `disc`, `snake-8`, …; of `table` a row, as `p4p`.
     pub system: String,
     /// What of ours is measured: a formulation, `flow` for the product's own right-hand side; the method of a trajectory.
     pub variant: String,

@@ -105,7 +105,9 @@ fn bench(asked: &Arguments) -> Result<(), String> {
     });
     if asked.peers || asked.references {
         place.environment()?;
-        let mut systems: Vec<&str> = items.iter().map(|item| item.system).collect();
+        // A row of the table has no motion.
+        let of_motion = items.iter().filter(|item| item.kind != "table");
+        let mut systems: Vec<&str> = of_motion.map(|item| item.system).collect();
         systems.sort_unstable();
         systems.dedup();
         place.compute_references(&systems, asked.references)?;

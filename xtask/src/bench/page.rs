@@ -20,6 +20,7 @@ pub(crate) fn item_name(item: &str) -> &str {
         "rhs" => "right-hand side",
         "main-job" => "main job",
         "drift" => "long run",
+        "table" => "row of the table of elasticity, d = 3",
         other => other,
     }
 }

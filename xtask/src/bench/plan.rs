@@ -14,7 +14,7 @@ pub(crate) struct Participant {
 /// Participants measured side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Item {
-    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift` or `main-job`.
+    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift`, `main-job` or `table`.
     pub(crate) kind: &'static str,
     /// The system.
     pub(crate) system: &'static str,
@@ -57,6 +57,7 @@ pub(crate) fn items(extent: Extent) -> Vec<Item> {
     items.extend(trajectories(extent));
     items.push(ensemble(extent));
     items.extend(long_runs(extent));
+    items.extend(table(extent));
     for item in &mut items {
         item.participants
             .retain(|p| extent.peers || p.peer == "chetaev");
@@ -82,6 +83,23 @@ fn main_job(extent: Extent) -> Item {
         participants: vec![who("chetaev", "text", "study")],
         ..item(extent, "main-job", "sleigh")
     }
+}
+
+/// The rows of the table of multi-level principles, each studied at d = 3.
+pub(crate) const TABLE: &[&str] = &[
+    "p4p", "p4c", "p4pb", "p4cb", "p3p", "p3c", "p3pb", "p3cb", "p3p1", "p3c1", "p3p0", "p3c0",
+    "p2p", "p2c", "p2pb", "p2cb", "p2p0", "p2c0", "p2p1", "p2c1", "p1p", "p1c", "p0p", "p0c", "pp",
+    "pc",
+];
+
+fn table(extent: Extent) -> Vec<Item> {
+    let of = |&row: &&'static str| Item {
+        rounds: if extent.quick { 1 } else { 3 },
+        cap: 120.0,
+        participants: vec![who("chetaev", "text", "study")],
+        ..item(extent, "table", row)
+    };
+    TABLE.iter().map(of).collect()
 }
 
 /// The number of links of a snake; 0 for other systems.

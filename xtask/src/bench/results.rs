@@ -57,7 +57,7 @@ pub(crate) enum Status {
 /// One participant at one item.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Row {
-    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift` or `main-job`.
+    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift`, `main-job` or `table`.
     pub(crate) item: String,
     /// The system.
     pub(crate) system: String,

@@ -83,6 +83,7 @@ pub(crate) fn targets(results: &Results) -> Vec<Target> {
     list.extend(ensemble(results));
     list.extend(drift(results));
     list.extend(main_job(results));
+    list.extend(rows_of_the_table(results));
     list
 }
 
@@ -295,6 +296,39 @@ fn main_job(results: &Results) -> Vec<Target> {
             what: "main job, whole process, sleigh: memory".into(),
             limit: "< 100 MB".into(),
             met: memory.as_ref().ok().map(|x| *x < 1e8),
+            measured: memory.map(|x| megabytes(x as u64)),
+        },
+    ]
+}
+
+/// The largest figures of all rows; nothing where they were not measured.
+fn rows_of_the_table(results: &Results) -> Vec<Target> {
+    let all = super::plan::TABLE.iter();
+    let rows: Vec<&Row> = all.flat_map(|row| results.of("table", row)).collect();
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let largest = |figure: &dyn Fn(&Row) -> Option<f64>| {
+        let found = rows.iter().map(|row| {
+            let own = figure(row).filter(|_| row.counts());
+            own.ok_or_else(|| format!("{}: {}", row.system, row.reason))
+        });
+        found.reduce(|a, b| Ok(a?.max(b?))).unwrap_or(Ok(0.0))
+    };
+    let wall = largest(&|row| Some(super::results::median(&row.wall)));
+    let memory = largest(&|row| row.parts["memory"].as_f64());
+    let what = format!("{} rows of the table of elasticity at d = 3", rows.len());
+    vec![
+        Target {
+            what: format!("{what}: wall of the slowest"),
+            limit: "≤ 10 s".into(),
+            met: wall.as_ref().ok().map(|x| *x <= 10.0),
+            measured: wall.map(time),
+        },
+        Target {
+            what: format!("{what}: largest memory"),
+            limit: "≤ 500 MB".into(),
+            met: memory.as_ref().ok().map(|x| *x <= 5e8),
             measured: memory.map(|x| megabytes(x as u64)),
         },
     ]

@@ -221,6 +221,49 @@ fn without_peers_only_we_are_asked() {
     }
 }
 
+/// The largest of what all rows took is compared; those that were not measured are told, and nothing is said where none was.
+#[test]
+fn rows_of_the_table_have_a_target() {
+    let what = "2 rows of the table of elasticity at d = 3";
+    let (wall, memory) = (
+        format!("{what}: wall of the slowest"),
+        format!("{what}: largest memory"),
+    );
+    assert!(targets(&small())
+        .iter()
+        .all(|own| !own.what.contains("table")));
+    let of = |system: &str, seconds: f64, memory: f64| Row {
+        parts: json!({"memory": memory}),
+        ..row("table", system, "chetaev", "text", "study", &[seconds])
+    };
+    let mut results = small();
+    results
+        .rows
+        .extend([of("p4p", 2.0, 4e8), of("pc", 9.0, 2e7)]);
+    assert_eq!(met(&results, &wall), Some(true));
+    assert_eq!(met(&results, &memory), Some(true));
+    let slow = results.rows.len() - 1;
+    results.rows[slow] = of("pc", 11.0, 6e8);
+    assert_eq!(met(&results, &wall), Some(false));
+    assert_eq!(met(&results, &memory), Some(false));
+    results.rows[slow].status = Status::Failed;
+    assert_eq!(met(&results, &wall), None);
+}
+
+#[test]
+fn every_row_of_the_table_is_measured() {
+    let folder = workplace::root().join("gallery/elasticity");
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let rows = entries.filter(|own| own.path().join("model.toml").is_file());
+    let mut rows: Vec<String> = rows
+        .map(|own| own.file_name().to_string_lossy().into_owned())
+        .collect();
+    let mut measured = plan::TABLE.to_vec();
+    rows.sort_unstable();
+    measured.sort_unstable();
+    assert_eq!(rows, measured);
+}
+
 #[test]
 fn keys_are_different() {
     let extent = plan::Extent {

@@ -297,11 +297,13 @@ fn on_piece(
     }
 }
 
-/// Both, what has the same label once.
+/// Both; what one label names in either is one group: where one functional defines a field, an equation of the other's says nothing.
 fn together(mut one: Vec<Group>, other: Vec<Group>) -> Vec<Group> {
     for group in other {
-        if one.iter().all(|own| own.label != group.label) {
-            one.push(group);
+        match one.iter_mut().find(|own| own.label == group.label) {
+            Some(own) if own.equations != group.equations => own.equations.extend(group.equations),
+            Some(_) => {}
+            None => one.push(group),
         }
     }
     one

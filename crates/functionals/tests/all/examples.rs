@@ -1,8 +1,6 @@
-//! The acceptance examples of T4 §5.
+//! The acceptance examples of T4 §5; E2 is in `projector`.
 
-use crate::table::{
-    decided, loaded_text, read_text, row_text, studied_text, studied_with_energy, ROWS,
-};
+use crate::table::{decided, loaded_text, read_text, row_text, studied_text, ROWS};
 use chetaev_functionals::notation::parse;
 use chetaev_functionals::variation::variation;
 use chetaev_functionals::Problem;
@@ -50,60 +48,6 @@ fn e1_the_equations_of_the_bar() {
 }
 
 #[test]
-fn e2_a_splitting_tensor_that_is_a_projector_leaves_components_undetermined() {
-    // S-F18: density K2 (tr e)²/2 − (tr e)(tr s)/2 − dev s:dev s/(4 G) + D:s.
-    let text = |yields: &str| {
-        format!(
-            r#"
-kind = "functional"
-name = "projector"
-density = "K2/2 e_ii e_jj - 1/2 e_ii s_jj - (s_ij s_ij - 1/2 s_ii s_jj)/(4 G) + D_ij s_ij - F_k u_k"
-yields = [{yields}]
-[sizes]
-d = 2
-[domain]
-coordinates = "x_i"
-boundary = ["S"]
-[parameters]
-K2 = {{}}
-G = {{}}
-[data]
-F = "vector"
-[fields]
-e = "symmetric"
-s = "symmetric"
-u = "vector"
-[define]
-D_ij = "1/2 (u_i,j + u_j,i)"
-[boundary]
-S = {{ fixed = ["u"] }}
-[equations]
-pressure = "s_ii = 2 K2 e_ii"
-volume = "e_ii = D_ii"
-shear = "s_ij - 1/2 s_kk delta_ij = 2 G (D_ij - 1/2 D_kk delta_ij)"
-equilibrium = "s_ij,i + F_j = 0"
-strain = "e_ij = D_ij"
-"#
-        )
-    };
-    let verdict = |yields: &str| {
-        let study = studied_text("p4p", &text(yields), &[]);
-        let verdict = decided(&study, "functional.euler");
-        (verdict.word().to_owned(), verdict.detail().to_owned())
-    };
-    let all = "\"pressure\", \"volume\", \"shear\", \"equilibrium\"";
-    let (word, detail) = verdict(all);
-    assert_eq!(word, "proved", "{detail}");
-    assert!(
-        detail.contains("e is not determined: 2 of its 3 components are left free"),
-        "{detail}"
-    );
-    // The strains are not all determined.
-    let (word, detail) = verdict("\"pressure\", \"strain\", \"shear\", \"equilibrium\"");
-    assert_eq!(word, "refuted", "{detail}");
-}
-
-#[test]
 fn e3_an_energy_that_is_not_quadratic() {
     for row in ROWS
         .iter()
@@ -133,34 +77,6 @@ fn e3_an_energy_that_is_not_quadratic() {
     assert!(is_euler(&own, "e_11", "sinh(e_11) - s_11"));
     let own = bar("p3p0", "energy-cosh");
     assert!(is_euler(&own, "s_11", "u_1,1 + u_1,1^2/2 - asinh(s_11)"));
-}
-
-/// What is proved of a row for every energy holds for each: neither formulas nor their conjugates make counterexamples.
-#[test]
-fn rows_with_an_energy_that_is_stated() {
-    let proved = |row: &str, energy: &'static str, d: &str| {
-        for own in &studied_with_energy(row, energy, d).verdicts {
-            let verdict = &own.finding.verdict;
-            let is_so = ["proved", "not-applicable"].contains(&verdict.word());
-            assert!(
-                is_so,
-                "{row} {energy} d = {d}: {} {}",
-                own.claim,
-                verdict.detail()
-            );
-        }
-    };
-    let rows = ROWS
-        .iter()
-        .filter(|row| row_text(row).contains("energy-abstract"));
-    for row in rows {
-        for energy in ["energy-quadratic", "energy-cosh"] {
-            proved(row, energy, "1");
-        }
-    }
-    for row in ["p4p", "p3p", "p3pb", "p0p", "p2c0"] {
-        proved(row, "energy-quadratic", "2");
-    }
 }
 
 #[test]

@@ -11,9 +11,12 @@ mod conjugates;
 mod curved;
 mod degenerations;
 mod dependence;
+mod energies;
 mod examples;
 mod half_known;
 mod indexed;
+mod inserted;
+mod levels;
 mod methods;
 mod mutants;
 mod names;
@@ -21,6 +24,7 @@ mod noether;
 mod pieces;
 mod places;
 mod printed;
+mod projector;
 mod propagation;
 mod reference;
 mod relations;
@@ -33,3 +37,11 @@ mod strata;
 mod table;
 mod values;
 mod wholes;
+
+#[path = "../../../../tests/src/extent.rs"]
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "public where the tests of the workspace are"
+)]
+mod extent;

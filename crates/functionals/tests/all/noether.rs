@@ -4,9 +4,10 @@
 use crate::table::loaded_text;
 use chetaev_functionals::claims::noether::current;
 use chetaev_functionals::functional::{Functional, Interval, Side};
-use chetaev_functionals::integral::over_face;
+use chetaev_functionals::integral::{over_box, over_face};
 use chetaev_functionals::notation::parse;
 use chetaev_functionals::study;
+use chetaev_functionals::variation::variation;
 use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
 
@@ -23,60 +24,124 @@ fn expression(f: &Functional, written: &str) -> Expr {
     f.scope.value(&node, &BTreeMap::new())
 }
 
-/// The integral of a current over the edge of the rectangle 0 < x_1 < 1, 0 < x_2 < 2, outwards, for a given field.
-fn around(f: &Functional, symmetry: &str, field: [&str; 2]) -> String {
-    let space = &*f.space;
-    let g = &space.graph;
-    let values = field.map(|own| expression(f, own));
-    let flux = current(f, symmetry).unwrap().flux;
-    let put = |e: Expr| {
-        space.replace(e, &|symbol| match space.as_jet(symbol) {
-            Some(jet) => {
-                let name = space.component_at(jet.component).name;
-                let value = values[if name == "u_1" { 0 } else { 1 }];
-                Some(space.totals(value, &jet.by))
-            }
-            None => match g.symbol_name(symbol) {
-                "lambda" => Some(g.integer(2)),
-                "mu" => Some(g.integer(1)),
-                _ => None,
-            },
-        })
-    };
-    let intervals = [(0, 1), (1, 2)].map(|(axis, upper)| Interval {
-        axis,
-        lower: g.zero(),
-        upper: g.integer(upper),
-    });
-    let mut terms = Vec::new();
-    for (axis, own) in flux.iter().enumerate() {
-        for is_upper in [false, true] {
-            let at = if is_upper {
-                intervals[axis].upper
-            } else {
-                intervals[axis].lower
-            };
-            let side = Side::Flat { axis, is_upper, at };
-            let value = over_face(space, put(*own), &side, &intervals).unwrap();
-            terms.push(if is_upper { value } else { g.neg(value) });
+/// The field of S-F14 on the rectangle 0 < x_1 < 1, 0 < x_2 < 2, with the body force that balances it.
+struct Field<'f> {
+    functional: &'f Functional,
+    pairs: Vec<(Expr, Expr)>,
+    intervals: [Interval; 2],
+}
+
+impl<'f> Field<'f> {
+    fn of(functional: &'f Functional) -> Field<'f> {
+        let (space, g) = (&*functional.space, &functional.space.graph);
+        let of = |(name, value): (&str, &str)| {
+            let component = space.component_named(name)?;
+            Some((space.jet(component, &[]), expression(functional, value)))
+        };
+        let mut pairs: Vec<(Expr, Expr)> = [
+            ("u_1", "x_1^2 x_2 - x_2"),
+            ("u_2", "x_1^2/2 + x_1 x_2^2"),
+            ("F_1", "-14 x_2"),
+            ("F_2", "-14 x_1 - 1"),
+        ]
+        .into_iter()
+        .filter_map(of)
+        .collect();
+        for (name, value) in [("lambda", "2"), ("mu", "1")] {
+            pairs.push((expression(functional, name), expression(functional, value)));
+        }
+        let intervals = [(0, 1), (1, 2)].map(|(axis, upper)| Interval {
+            axis,
+            lower: g.zero(),
+            upper: g.integer(upper),
+        });
+        Field {
+            functional,
+            pairs,
+            intervals,
         }
     }
-    g.text(g.add(&terms))
+
+    fn put(&self, e: Expr) -> Expr {
+        self.functional.space.put(e, &self.pairs)
+    }
+
+    /// The integral of a current over the edge, outwards.
+    fn around(&self, symmetry: &str) -> String {
+        let (space, g) = (&*self.functional.space, &self.functional.space.graph);
+        let flux = current(self.functional, symmetry).unwrap().flux;
+        let mut terms = Vec::new();
+        for (axis, own) in flux.iter().enumerate() {
+            for is_upper in [false, true] {
+                let Interval { lower, upper, .. } = self.intervals[axis];
+                let at = if is_upper { upper } else { lower };
+                let side = Side::Flat { axis, is_upper, at };
+                let value = over_face(space, self.put(*own), &side, &self.intervals).unwrap();
+                terms.push(if is_upper { value } else { g.neg(value) });
+            }
+        }
+        g.text(g.add(&terms))
+    }
+
+    /// The integral over the rectangle.
+    fn inside(&self, e: Expr) -> String {
+        let (space, g) = (&*self.functional.space, &self.functional.space.graph);
+        g.text(over_box(space, self.put(e), &self.intervals).unwrap())
+    }
 }
+
+/// The symmetries of the plane with the integrals of S-F14: J_1, J_2, M and L.
+const INTEGRALS: [(&str, &str); 4] = [
+    ("translation-x_1", "-69"),
+    ("translation-x_2", "-2"),
+    ("scaling", "-49"),
+    ("rotation-x_1-x_2", "49"),
+];
 
 #[test]
 fn the_integrals_j_l_and_m_of_a_plane_field_are_those_of_the_reference() {
     // S-F14: Eshelby 1951, Rice 1968, Knowles and Sternberg 1972.
     let f = loaded_text("p4p", &text("elastic-plane"), &[]).functional;
-    let field = ["x_1^2 x_2 - x_2", "x_1^2/2 + x_1 x_2^2"];
-    let wanted = [
-        ("translation-x_1", "-69"),
-        ("translation-x_2", "-2"),
-        ("scaling", "-49"),
-        ("rotation-x_1-x_2", "49"),
+    let field = Field::of(&f);
+    for (symmetry, value) in INTEGRALS {
+        assert_eq!(field.around(symmetry), value, "{symmetry}");
+    }
+}
+
+/// S-F14: what a current takes through the edge is what the body force leaves of it inside.
+#[test]
+fn the_defects_of_a_body_force_are_those_of_the_reference() {
+    let f = loaded_text("p4p", &pulled(), &[]).functional;
+    let field = Field::of(&f);
+    for (_, euler) in variation(&f).unwrap().euler {
+        assert!(f.space.vanish(&[field.put(euler)]));
+    }
+    let defects = [
+        "F_i u_i,1",
+        "F_i u_i,2",
+        "x_1 F_i u_i,1 + x_2 F_i u_i,2",
+        "F_i (x_1 u_i,2 - x_2 u_i,1) - (u_1 F_2 - u_2 F_1)",
     ];
-    for (symmetry, value) in wanted {
-        assert_eq!(around(&f, symmetry, field), value, "{symmetry}");
+    for ((symmetry, value), defect) in INTEGRALS.into_iter().zip(defects) {
+        assert_eq!(field.inside(expression(&f, defect)), value, "{symmetry}");
+    }
+}
+
+/// The current of the density with the body force in it, as it is printed with its defect: −F_i,k u_i for translations, of which the integrals
+/// are 14 ∫ u_2 = 70/3 and 14 ∫ u_1 = −56/3 here.
+#[test]
+fn a_defect_that_is_shown_is_what_goes_through_the_edge() {
+    let study = study(loaded_text("p4p", &pulled(), &[]), &|_| true, &|| 0.0);
+    let field = Field::of(&study.problem.functional);
+    let by_hand = [Some("70/3"), Some("-56/3"), None, None];
+    for ((symmetry, _), by_hand) in INTEGRALS.into_iter().zip(by_hand) {
+        let mut all = study.verdicts.iter();
+        let found = all.find(|d| d.subject.as_deref() == Some(symmetry));
+        let mut formulas = found.unwrap().finding.formulas.iter();
+        let defect = formulas.find(|f| f.caption.contains("defect")).unwrap();
+        let inside = field.inside(defect.value);
+        assert_eq!(inside, field.around(symmetry), "{symmetry}");
+        assert!(by_hand.is_none_or(|own| inside == own), "{inside}");
     }
 }
 
@@ -149,14 +214,18 @@ fn plane_with(from: &str, to: &str) -> String {
     plane.replace(from, to)
 }
 
-#[test]
-fn a_body_force_leaves_none_of_the_currents() {
+/// With a body force.
+fn pulled() -> String {
     let force = plane_with(
         "(u_i,j + u_j,i)\"\nyields",
         "(u_i,j + u_j,i) - F_k u_k\"\nyields",
     );
-    let force = force.replace("[fields]", "[data]\nF = \"vector\"\n[fields]");
-    words(&force, ["refuted"; 3]);
+    force.replace("[fields]", "[data]\nF = \"vector\"\n[fields]")
+}
+
+#[test]
+fn a_body_force_leaves_none_of_the_currents() {
+    words(&pulled(), ["refuted"; 3]);
 }
 
 #[test]

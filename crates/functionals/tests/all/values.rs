@@ -34,6 +34,33 @@ fn a_solution_is_that_of_the_values_stated() {
     assert_eq!(word(&stiff, "functional.solution"), "refuted");
 }
 
+/// The Euler equation is printed as it is, and no claim is made of it.
+#[test]
+fn without_stated_equations_the_euler_equations_are_printed_only() {
+    let text = rod("1", "-1/3");
+    let (text, _) = text.split_once("[equations]").unwrap();
+    let text = text.replace("yields = [\"a\"]\n", "");
+    let study = studied_text("p4p", &text, &[]);
+    let verdict = crate::table::decided(&study, "functional.euler");
+    assert_eq!(verdict.word(), "not-applicable");
+    assert!(
+        verdict.detail().contains("states no field equations"),
+        "{}",
+        verdict.detail()
+    );
+    let f = &study.problem.functional;
+    let euler = chetaev_functionals::variation::variation(f).unwrap().euler;
+    // δ(E/2 u'² − F u) = −E u'' − F.
+    let [(_, own)] = euler[..] else {
+        panic!("one field")
+    };
+    let printed = f
+        .space
+        .graph
+        .text(f.space.graph.substitute(own, &f.values()));
+    assert_eq!(printed, "-1 - u,xx");
+}
+
 #[test]
 fn a_stiffness_of_zero_divides_nothing() {
     let loaded = read_text("p4p", &rod("0", "0"), &[]);
