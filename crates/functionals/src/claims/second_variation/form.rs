@@ -6,6 +6,7 @@ use crate::functional::{Functional, Interval, Role, Side, Solution, Special, Spe
 use crate::read::on_side;
 use crate::space::Jet;
 use crate::variation::{variation, Trace};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// What the second variation is about.
@@ -47,7 +48,9 @@ impl<'f> Form<'f> {
         if let Some(unfit) = unfit(functional, &solution.values, &solution.intervals) {
             return Err(Box::new(unfit));
         }
-        if let Some(own) = functional.with_role(Role::Imposed).next() {
+        // What holds by a definition restricts nothing.
+        let mut imposed = functional.with_role(Role::Imposed);
+        if let Some(own) = imposed.find(|own| !space.vanish(&own.residuals)) {
             let said = format!("({}) is imposed, so that not all variations are admitted; the condition of Jacobi for these is not decided", own.label);
             return Err(not_applicable(said));
         }
@@ -120,6 +123,12 @@ impl<'f> Form<'f> {
             let mut entries = own.iter().flatten();
             entries.all(|&e| space.graph.is_zero(e) || space.vanish(&[e]))
         })
+    }
+
+    /// Whether Legendre's P is singular everywhere.
+    pub(super) fn is_singular(&self) -> bool {
+        let space = &*self.functional.space;
+        space.vanish(&[determinant(&space.graph, &self.p)])
     }
 
     fn hessian(&self, density: Expr, (one, other): (&[usize], &[usize])) -> Vec<Vec<Expr>> {

@@ -13,7 +13,7 @@ use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::{rational, Expr, Rational, Verdict};
-use form::Form;
+use form::{Form, CLAIM};
 use jacobi::Shown;
 use std::cmp::Ordering;
 use trial::Negative;
@@ -129,6 +129,12 @@ fn verdict(form: &Form<'_>) -> Verdict {
         return vanishing();
     }
     let Some(places) = Places::of(form) else {
+        if form.is_singular() {
+            return Verdict::not_applicable(
+                CLAIM,
+                "Legendre's P is singular: where some combination of fields has no derivative in it a principle is one of stationarity",
+            );
+        }
         return Verdict::undecided(
             "the ends of the interval are no numbers: Jacobi's equation is printed, and not solved",
         );
