@@ -275,6 +275,18 @@ impl<'a> Expansion<'a> {
         }
     }
 
+    /// The coordinates that run uniformly, on which nothing depends, with their rates.
+    pub fn running(&self) -> Vec<(String, Expr)> {
+        let g = self.graph();
+        let coordinates = &self.system.coordinates;
+        let positions = self.system.coordinate_symbols();
+        let ignorable = self.own.ignorable(self.system).into_iter();
+        let rates =
+            ignorable.map(|j| (coordinates[j].name.clone(), self.at(&[coordinates[j].v])[0]));
+        let is_uniform = |rate: Expr| !g.is_zero(rate) && !g.contains_any(rate, &positions);
+        rates.filter(|(_, rate)| is_uniform(*rate)).collect()
+    }
+
     /// The direction along a coordinate.
     pub(crate) fn unit(&self, j: usize) -> Direction {
         let g = self.graph();
