@@ -7,6 +7,7 @@
 )]
 
 mod data;
+mod decimal;
 pub(crate) mod error;
 mod hopf;
 pub mod map;
@@ -108,6 +109,8 @@ pub struct Stability {
     pub all: Option<Descriptor>,
     /// Their parts of second order, where there are such.
     pub parts: Option<Parts>,
+    /// Coordinates that run uniformly, with their rates.
+    pub running: Vec<(String, Expr)>,
     /// Why all parameters have their values.
     pub numbers: Option<Numbers>,
 }
@@ -251,6 +254,7 @@ fn in_symbols(
                     absent,
                     space,
                     all,
+                    running: about.running(),
                     system,
                     numbers: None,
                 });
