@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from chetaev import Linear, System
+from chetaev import System
+from chetaev.results import Linearization
 
 # Two bodies on springs, x'' = -2 x + y + force and y'' = x - 3 y - y' + 2 w.
 TEXT = """
@@ -48,11 +49,11 @@ NAMES = {"states": ["x", "y", "x'", "y'"], "inputs": ["force", "w"], "outputs": 
 
 
 @pytest.fixture(scope="module")
-def linear() -> Linear:
+def linear() -> Linearization:
     return System.from_text(TEXT).linearize(outputs=OUTPUTS)
 
 
-def test_numpy_reads_all_arrays(linear: Linear, tmp_path: Path) -> None:
+def test_numpy_reads_all_arrays(linear: Linearization, tmp_path: Path) -> None:
     linear.save(tmp_path / "two.npz")
     with np.load(tmp_path / "two.npz") as archive:
         found = {name: archive[name] for name in archive.files}
@@ -64,7 +65,7 @@ def test_numpy_reads_all_arrays(linear: Linear, tmp_path: Path) -> None:
         assert list(found[name]) == names
 
 
-def test_scipy_reads_the_matlab_file(linear: Linear, tmp_path: Path) -> None:
+def test_scipy_reads_the_matlab_file(linear: Linearization, tmp_path: Path) -> None:
     io = pytest.importorskip("scipy.io")
     linear.save(tmp_path / "two.mat")
     found = io.loadmat(tmp_path / "two.mat")
@@ -76,7 +77,7 @@ def test_scipy_reads_the_matlab_file(linear: Linear, tmp_path: Path) -> None:
         assert [own.rstrip() for own in found[name]] == names
 
 
-def test_python_control_runs_the_script(linear: Linear, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_python_control_runs_the_script(linear: Linearization, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With python-control where it is installed, else with something in its place that keeps what it is given."""
     is_there = importlib.util.find_spec("control") is not None
     if not is_there:
