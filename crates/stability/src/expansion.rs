@@ -275,16 +275,28 @@ impl<'a> Expansion<'a> {
         }
     }
 
-    /// The coordinates that run uniformly, on which nothing depends, with their rates.
+    /// The coordinates that run uniformly, on which nothing depends, with their rates: these contain no coordinate that moves. None where constraints
+    /// stay implicit, so that rates are not known as functions.
     pub fn running(&self) -> Vec<(String, Expr)> {
-        let g = self.graph();
+        let (g, c) = (self.graph(), &self.own.characteristics);
+        if !c.manifold.implicit.is_empty() {
+            return Vec::new();
+        }
         let coordinates = &self.system.coordinates;
-        let positions = self.system.coordinate_symbols();
+        let rate = |j: usize| (j, self.at(&[c.velocities[j]])[0]);
         let ignorable = self.own.ignorable(self.system).into_iter();
-        let rates =
-            ignorable.map(|j| (coordinates[j].name.clone(), self.at(&[coordinates[j].v])[0]));
-        let is_uniform = |rate: Expr| !g.is_zero(rate) && !g.contains_any(rate, &positions);
-        rates.filter(|(_, rate)| is_uniform(*rate)).collect()
+        let moving: Vec<(usize, Expr)> = ignorable
+            .map(rate)
+            .filter(|(_, rate)| !g.is_zero(*rate))
+            .collect();
+        let symbols = moving.iter().map(|&(j, _)| coordinates[j].q_symbol);
+        let symbols: Vec<Symbol> = symbols.collect();
+        let uniform = moving
+            .iter()
+            .filter(|(j, _)| !g.contains_any(c.velocities[*j], &symbols));
+        uniform
+            .map(|&(j, rate)| (coordinates[j].name.clone(), rate))
+            .collect()
     }
 
     /// The direction along a coordinate.

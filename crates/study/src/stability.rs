@@ -537,6 +537,18 @@ impl Stability {
         &self.system.graph
     }
 
+    /// The coefficients of the characteristic polynomial, the constant first; those of algebraic numbers over the leading one, as common denominators
+    /// have many digits.
+    fn coefficients(&self) -> Option<Vec<Expr>> {
+        let g = self.graph();
+        let own = &self.question.polynomial.as_ref()?.coefficients;
+        let leading = *own.last()?;
+        if !own.iter().any(|&e| g.holds_algebraic(e)) {
+            return Some(own.clone());
+        }
+        Some(own.iter().map(|&e| g.div(e, leading)).collect())
+    }
+
     /// Entries in numbers, with a value for the parameter that was left in; not a number where one has no value.
     fn numbers(&self, rows: &[Vec<Expr>], free: Option<f64>) -> Vec<Vec<f64>> {
         let g = self.graph();

@@ -231,7 +231,8 @@ fn mathieu() {
             2e-12,
         );
     }
-    let cases: [(f64, (f64, f64), &[(f64, &str)]); 3] = [
+    type Passed<'a> = &'a [(f64, &'a str)];
+    let cases: [(f64, (f64, f64), Passed<'_>); 3] = [
         (
             1.0,
             (-6.0, 12.0),

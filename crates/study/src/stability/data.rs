@@ -92,7 +92,7 @@ impl Stability {
         };
         let polynomial = self.question.polynomial.as_ref().map(|p| {
             json!({
-                "coefficients": p.coefficients.iter().map(|&e| notation(g, e)).collect::<Vec<_>>(),
+                "coefficients": self.coefficients().iter().flatten().map(|&e| notation(g, e)).collect::<Vec<_>>(),
                 "factors": self.question.spectrum.factors.iter().map(|(f, power)| json!({
                     "coefficients": f.iter().map(|&e| notation(g, e)).collect::<Vec<_>>(),
                     "multiplicity": power,

@@ -15,6 +15,21 @@ type Term = (Vec<usize>, f64);
 
 /// A polynomial in symbols with decimal coefficients, the highest powers first; `None` where it is none.
 pub(super) fn decimal_polynomial(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<String> {
+    Some(written(g, symbols, &terms(g, e, symbols)?))
+}
+
+/// A polynomial with the same zeros, the largest of its coefficients between 1 and 10.
+pub(super) fn same_zeros(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<String> {
+    let mut terms = terms(g, e, symbols)?;
+    let largest = terms.iter().map(|own| own.1.abs()).fold(0.0, f64::max);
+    let unit = 10_f64.powf(largest.log10().floor());
+    for own in &mut terms {
+        own.1 /= unit;
+    }
+    unit.is_normal().then(|| written(g, symbols, &terms))
+}
+
+fn written(g: &Graph, symbols: &[Symbol], terms: &[Term]) -> String {
     let names: Vec<String> = symbols.iter().map(|&s| g.symbol_text(s)).collect();
     let term = |(powers, value): &Term| {
         let powers = names.iter().zip(powers);
@@ -25,8 +40,8 @@ pub(super) fn decimal_polynomial(g: &Graph, e: Expr, symbols: &[Symbol]) -> Opti
         });
         format!("{}{}", real(*value, DIGITS), powers.collect::<String>())
     };
-    let terms: Vec<String> = terms(g, e, symbols)?.iter().map(term).collect();
-    Some(terms.join(" + ").replace("+ -", "- "))
+    let terms: Vec<String> = terms.iter().map(term).collect();
+    terms.join(" + ").replace("+ -", "- ")
 }
 
 /// By Taylor's formula at zero, which is exact.

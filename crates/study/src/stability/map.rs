@@ -5,7 +5,7 @@
 //! curves are, factors of the constant coefficient, of Hurwitz's last determinant but one and of the leading coefficient (Liénard and Chipart
 //! 1914), are given exactly where they are short, else with decimal coefficients.
 
-use super::decimal::decimal_polynomial;
+use super::decimal::same_zeros;
 use super::{at, check_parameter, motions, range, with_values, Range, StabilityError, Wanted};
 use crate::start;
 use chetaev_mechanics::{SteadyMotion, System};
@@ -449,7 +449,7 @@ impl Grid<'_> {
             let exact = self.g.text(own.function);
             let is_rounded = exact.len() > LONGEST;
             let function = if is_rounded {
-                decimal_polynomial(self.g, own.function, &self.over)?
+                same_zeros(self.g, own.function, &self.over)?
             } else {
                 exact
             };

@@ -264,7 +264,8 @@ impl Stability {
         }
         text.push_str(":\n");
         let shifted = polynomial.further_zeros;
-        for (power, &e) in polynomial.coefficients.iter().enumerate().rev() {
+        let coefficients = self.coefficients().unwrap_or_default();
+        for (power, &e) in coefficients.iter().enumerate().rev() {
             let _ = writeln!(text, "  λ^{}: {}", power + shifted, shown(g, e));
         }
         let factors = &self.question.spectrum.factors;
