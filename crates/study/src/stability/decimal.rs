@@ -18,11 +18,11 @@ pub(super) fn decimal_polynomial(g: &Graph, e: Expr, symbols: &[Symbol]) -> Opti
     Some(written(g, symbols, &terms(g, e, symbols)?))
 }
 
-/// A polynomial with the same zeros, the largest of its coefficients between 1 and 10.
+/// A polynomial with the same zeros, the smallest of its coefficients between 1 and 10: so all have as many digits as are printed.
 pub(super) fn same_zeros(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<String> {
     let mut terms = terms(g, e, symbols)?;
-    let largest = terms.iter().map(|own| own.1.abs()).fold(0.0, f64::max);
-    let unit = 10_f64.powf(largest.log10().floor());
+    let sizes = terms.iter().map(|own| own.1.abs());
+    let unit = 10_f64.powf(sizes.fold(f64::INFINITY, f64::min).log10().floor());
     for own in &mut terms {
         own.1 /= unit;
     }
