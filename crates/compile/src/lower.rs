@@ -182,6 +182,8 @@ pub(crate) enum Fault {
 }
 
 /// Not yet lowered.
+/// Bits of algebraic numbers.
+const BITS: usize = 256;
 const ABSENT: u32 = u32::MAX;
 const NEEDS_SIN: u8 = 1;
 const NEEDS_COS: u8 = 2;
@@ -397,6 +399,8 @@ impl<'g> Lowerer<'g> {
         let register = match graph.node(e) {
             Node::Number(value) => self.emitter.number(value),
             Node::Pi => self.emitter.pi(),
+            // Closer than any arithmetic here tells.
+            Node::Algebraic(own) => self.emitter.number(&own.near(BITS)),
             Node::Symbol(symbol) => self.input(e, *symbol)?,
             Node::Sum { constant, terms } => self.sum(e, constant, terms)?,
             Node::Product { .. } => self.product(e)?,

@@ -363,7 +363,7 @@ impl Space {
         let g = &self.graph;
         let is_known = |e: Expr| match g.node(e) {
             Node::Symbol(symbol) => !self.is_application(*symbol),
-            Node::Number(_) | Node::Pi => true,
+            Node::Number(_) | Node::Pi | Node::Algebraic(_) => true,
             Node::Sum { .. } | Node::Product { .. } | Node::Power { .. } | Node::Apply { .. } => {
                 true
             }

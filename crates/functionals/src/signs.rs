@@ -1,12 +1,12 @@
 //! The sign of a function of one variable on a closed interval: exact for polynomials by Sturm's theorem, by enclosures for others.
 //!
-//! A polynomial with n distinct zeros between two points that are none has n more changes of sign in its Sturm sequence at the left
-//! point than at the right one (C. Sturm 1829). Another function is enclosed on parts of the interval, which are halved until each has a sign.
+//! A function that is no polynomial is enclosed on parts of the interval, which are halved until each has a sign.
 
 use crate::polynomial::Polynomial;
 use crate::space::Space;
 use chetaev_symbolic::number::ball::{Ball, Precision};
-use chetaev_symbolic::{meter, rational, Expr, Rational};
+use chetaev_symbolic::number::sturm::{count, divided, sequence, trimmed, value, Coefficients};
+use chetaev_symbolic::{rational, Expr, Rational};
 use std::cmp::Ordering;
 
 /// The sign of a function on a closed interval.
@@ -39,9 +39,6 @@ impl Sign {
 /// Most parts on which a function is enclosed.
 const MOST_PARTS: usize = 4_000;
 
-/// Units of work for a product and a difference of rational numbers.
-const STEP: u64 = 20;
-
 /// Bits of the enclosures.
 const BITS: usize = 80;
 
@@ -62,85 +59,12 @@ pub fn enclosure(space: &Space, e: Expr) -> Option<Ball> {
     own.ok()?.into_iter().next()
 }
 
-/// Coefficients by ascending powers, the last of them not zero.
-type Coefficients = Vec<Rational>;
-
-fn value(p: &[Rational], x: &Rational) -> Rational {
-    let terms = p.iter().rev();
-    terms.fold(Rational::ZERO, |sum, c| {
-        rational::sum(&rational::product(&sum, x), c)
-    })
-}
-
-fn trimmed(mut p: Coefficients) -> Coefficients {
-    while p.last().is_some_and(|c| *c == Rational::ZERO) {
-        p.pop();
-    }
-    p
-}
-
-fn slope(p: &[Rational]) -> Coefficients {
-    let own = p.iter().enumerate().skip(1);
-    own.map(|(n, c)| rational::product(c, &rational::integer(n as i64)))
-        .collect()
-}
-
-/// Quotient and remainder.
-fn divided(p: &[Rational], by: &[Rational]) -> (Coefficients, Coefficients) {
-    let mut rest = p.to_vec();
-    let Some(leading) = by.last() else {
-        return (Vec::new(), rest);
-    };
-    let mut quotient = vec![Rational::ZERO; (p.len() + 1).saturating_sub(by.len())];
-    while rest.len() >= by.len() {
-        let Some(last) = rest.last() else { break };
-        let factor = last / leading;
-        let shift = rest.len() - by.len();
-        meter::spend(STEP * by.len() as u64);
-        for (own, c) in rest[shift..].iter_mut().zip(by) {
-            *own = &*own - &rational::product(&factor, c);
-        }
-        quotient[shift] = factor;
-        rest.pop();
-    }
-    (quotient, trimmed(rest))
-}
-
-/// The same up to a positive factor, with small coefficients.
-fn primitive(p: Coefficients) -> Coefficients {
-    let content = rational::content(p.iter());
-    if content == Rational::ZERO {
-        return p;
-    }
-    let content = rational::abs(&content);
-    p.iter().map(|c| c / &content).collect()
-}
-
-fn sequence(p: &[Rational]) -> Vec<Coefficients> {
-    let mut all = vec![primitive(p.to_vec()), primitive(slope(p))];
-    while let [.., before, last] = &all[..] {
-        if last.is_empty() {
-            break;
-        }
-        let (_, rest) = divided(before, last);
-        all.push(primitive(rest.iter().map(|c| -c).collect()));
-    }
-    all.retain(|own| !own.is_empty());
-    all
-}
-
 fn sign(r: &Rational) -> i8 {
     match r.cmp(&Rational::ZERO) {
         Ordering::Less => -1,
         Ordering::Equal => 0,
         Ordering::Greater => 1,
     }
-}
-
-fn changes(sequence: &[Coefficients], x: &Rational) -> usize {
-    let signs = sequence.iter().map(|p| sign(&value(p, x)));
-    let signs: Vec<i8> = signs.filter(|s| *s != 0).collect();
-    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 fn middle(lower: &Rational, upper: &Rational) -> Rational {
@@ -170,7 +94,7 @@ fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
                 return Sign::Negative(beside(&own, x, other));
             }
         }
-        let count = changes(&sequence, &a) - changes(&sequence, &b).min(changes(&sequence, &a));
+        let count = count(&sequence, &a, &b);
         is_zero_inside |= count > 0;
         if count < 2 {
             continue;

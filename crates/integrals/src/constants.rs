@@ -17,7 +17,7 @@ pub fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Expr]) -> 
     for e in g.reachable(&roots) {
         let is_letter = match g.node(e) {
             Node::Symbol(symbol) => !motion.moves(*symbol),
-            Node::Pi => true,
+            Node::Pi | Node::Algebraic(_) => true,
             Node::Apply { .. } => is_constant(e),
             Node::Power { exponent, .. } => g.as_integer(*exponent).is_none() && is_constant(e),
             _ => false,

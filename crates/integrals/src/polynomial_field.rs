@@ -227,6 +227,6 @@ fn tie(field: &Field<'_>, place: usize) -> Result<Tie, NotRational> {
             Some(square) => Ok(Tie::Root(square.clone())),
             None => Err(NotRational::Function),
         },
-        Kind::Radical { .. } | Kind::Absolute => Err(NotRational::Function),
+        Kind::Radical { .. } | Kind::Absolute | Kind::Algebraic => Err(NotRational::Function),
     }
 }

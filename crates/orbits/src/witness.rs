@@ -1,9 +1,12 @@
 //! Motions that begin near a steady one: a witness where theory decides nothing on stability, and no proof.
 
+use crate::equilibria::Equilibria;
 use crate::flow::{Coordinates, Flow};
 use crate::multipliers::eigenvalues;
+use crate::solution::solution;
 use crate::variational::{Extended, Order, Variational};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_stability::guess::near;
 use chetaev_stability::steady::numbers;
 
 /// How far beside the motion the others begin, in one variable each: a part of its value, or of 1 where it is zero.
@@ -22,12 +25,19 @@ pub fn perturbed_runs(
     motion: &SteadyMotion,
 ) -> Option<String> {
     let values = system.parameter_values();
-    let point = numbers(motion, system, terms, (&selection.rows, &values)).ok()?;
+    // What is guessed is no steady motion: the one that it means is, in closed form or to rounding.
+    let exact = near(system, terms, selection, (motion, &values)).ok();
+    let known = exact.as_deref().unwrap_or(motion);
+    let point = numbers(known, system, terms, (&selection.rows, &values)).ok()?;
     let which = (Coordinates::NotIgnorable, &point[..]);
     let flow = Flow::of_system(system, terms, selection, which).ok()?;
-    let start = flow.state(&point).ok()?;
+    let mut start = flow.state(&point).ok()?;
     if !flow.finite.is_empty() {
         return None;
+    }
+    if exact.is_none() {
+        let mut equations = Equilibria::new(&flow, None).ok()?;
+        start = solution(&mut equations, &start, 0.0).ok()?.0.unknowns;
     }
     let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
     let found = eigenvalues(&flow.slopes(&start, &parameters)?).ok()?;

@@ -1,5 +1,6 @@
 //! The real zeros of a triangular system: unknown by unknown, as numbers where none is free before, else as functions of the free ones.
 
+use crate::exact_zeros::{closed_forms, ExactZeros};
 use crate::real_zeros::real_zeros;
 use crate::steady::closed;
 use crate::steady_value::{fraction, precision, Generators, SteadySetError, Unknown, Value};
@@ -239,11 +240,7 @@ impl Chain<'_, '_> {
                 polynomial: format!("a polynomial in {}", g.text(own)),
             }
         })?;
-        let closed_forms: Vec<Expr> = exact
-            .map(|own| closed_forms(g, own).into_iter().map(|(e, _)| e).collect())
-            .unwrap_or_default();
-        let enclosed = |e: Expr| g.enclose(&[e], &precision(), &|_| None).ok()?.pop();
-        let meets = |e: Expr, ball: &Ball| enclosed(e).is_some_and(|own| own.overlaps(ball));
+        let exact = ExactZeros::of(g, exact.unwrap_or_default());
         let mut all = Vec::new();
         for ball in found {
             match ball.sign() {
@@ -258,8 +255,7 @@ impl Chain<'_, '_> {
                 _ => {}
             }
             let mut own = branch.clone();
-            let form = closed_forms.iter().find(|&&e| meets(e, &ball));
-            own.exact.extend(form.map(|&e| (generator, e)));
+            own.exact.extend(exact.at(g, &ball).map(|e| (generator, e)));
             own.balls.insert(generator, ball);
             all.push(own);
         }
@@ -458,25 +454,6 @@ impl Chain<'_, '_> {
 /// √(1 − c²).
 fn sine_of(g: &Graph, c: Expr) -> Expr {
     g.sqrt(g.sub(g.one(), g.powi(c, 2)))
-}
-
-/// The zeros of a linear or quadratic polynomial in closed form, its coefficients given with the constant first, each with what must not be
-/// negative for it to be real. Of two the one with the positive root is first.
-fn closed_forms(g: &Graph, coefficients: &[Expr]) -> Vec<(Expr, Option<Expr>)> {
-    match *coefficients {
-        [b, a] => vec![(closed(g, g.neg(g.div(b, a))), None)],
-        [c, b, a] => {
-            let product = g.mul(&[g.integer(4), a, c]);
-            let discriminant = closed(g, g.sub(g.powi(b, 2), product));
-            let root = g.sqrt(discriminant);
-            let below = g.mul(&[g.integer(2), a]);
-            let of = |root: Expr| closed(g, g.div(g.sub(root, b), below));
-            [root, g.neg(root)]
-                .map(|root| (of(root), Some(discriminant)))
-                .to_vec()
-        }
-        _ => Vec::new(),
-    }
 }
 
 /// The angle of a point of the unit circle, divided.

@@ -275,6 +275,30 @@ impl<'a> Expansion<'a> {
         }
     }
 
+    /// The coordinates that run uniformly, on which nothing depends, with their rates: these contain no coordinate that moves. None where constraints
+    /// stay implicit, so that rates are not known as functions.
+    pub fn running(&self) -> Vec<(String, Expr)> {
+        let (g, c) = (self.graph(), &self.own.characteristics);
+        if !c.manifold.implicit.is_empty() {
+            return Vec::new();
+        }
+        let coordinates = &self.system.coordinates;
+        let rate = |j: usize| (j, self.at(&[c.velocities[j]])[0]);
+        let ignorable = self.own.ignorable(self.system).into_iter();
+        let moving: Vec<(usize, Expr)> = ignorable
+            .map(rate)
+            .filter(|(_, rate)| !g.is_zero(*rate))
+            .collect();
+        let symbols = moving.iter().map(|&(j, _)| coordinates[j].q_symbol);
+        let symbols: Vec<Symbol> = symbols.collect();
+        let uniform = moving
+            .iter()
+            .filter(|(j, _)| !g.contains_any(c.velocities[*j], &symbols));
+        uniform
+            .map(|&(j, rate)| (coordinates[j].name.clone(), rate))
+            .collect()
+    }
+
     /// The direction along a coordinate.
     pub(crate) fn unit(&self, j: usize) -> Direction {
         let g = self.graph();

@@ -1,7 +1,7 @@
 //! Motions of which guesses are given: among all steady motions the one with the values that are given, nearest to those that are guessed.
 //!
-//! All steady motions with the values that are given are solved for exactly ([`with_given`]), so that what is found is exact and no other is
-//! nearer. A free parameter of a family takes the value that is guessed for the variable that it stands for. Where the mass matrix is singular no
+//! All steady motions with the values that are given are solved for exactly ([`with_given`]), algebraic numbers among them, so that what is found is
+//! exact and no other is nearer. A free parameter of a family takes the value that is guessed for the variable that it stands for. Where the mass matrix is singular no
 //! motion is meant if there is another.
 
 use crate::problem::LinearizationError;

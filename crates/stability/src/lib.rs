@@ -35,6 +35,7 @@ pub mod descriptor;
 pub mod eigenvalues;
 pub mod enclosure;
 mod evidence;
+mod exact_zeros;
 pub mod expansion;
 mod family;
 mod growth;

@@ -13,6 +13,8 @@ use std::cmp::Ordering;
 
 /// Bits of the enclosures.
 const BITS: usize = 256;
+/// The same where algebraic numbers occur.
+const MORE: [usize; 2] = [1_024, 4_096];
 /// At most so many intervals are looked at for one function: some hundred serve a polynomial of degree 20.
 const INTERVALS: usize = 40_000;
 /// A zero is enclosed to 2^−64 of itself: more than double precision shows.
@@ -192,11 +194,13 @@ pub fn sign_of(g: &Graph, e: Expr) -> Option<Ordering> {
     if g.is_zero(e) {
         return Some(Ordering::Equal);
     }
-    let ball = g
-        .enclose(&[e], &Precision::new(BITS), &|_| None)
-        .ok()?
-        .pop()?;
-    ball.sign()
+    // Powers of an algebraic number stand with long coefficients, and cancel.
+    let more: &[usize] = if g.holds_algebraic(e) { &MORE } else { &[] };
+    let sign = |bits: usize| {
+        let found = g.enclose(&[e], &Precision::new(bits), &|_| None).ok()?;
+        found.first()?.sign()
+    };
+    [BITS].iter().chain(more).find_map(|&bits| sign(bits))
 }
 
 /// A function with its derivative.

@@ -39,7 +39,7 @@ pub struct Found {
     pub conditions: Vec<Expr>,
     /// Equations between the variables that are not solved.
     pub equations: Vec<Expr>,
-    /// The motion, where all values have a closed form.
+    /// The motion, where all values are exact: in closed form, or algebraic numbers.
     pub motion: Option<SteadyMotion>,
     /// Whether a real motion of the family is known; isolated ones are real.
     pub is_real: bool,
@@ -86,8 +86,8 @@ impl SteadySet {
             Value::Number {
                 exact: Some(e),
                 ball,
-            } => Some(number(g, name, *e, ball.to_f64())),
-            Value::Number { exact: None, ball } => {
+            } if !g.holds_algebraic(*e) => Some(number(g, name, *e, ball.to_f64())),
+            Value::Number { ball, .. } => {
                 let (low, high) = ball.to_decimal_interval(16);
                 Some(format!("{name} in [{low}, {high}]"))
             }

@@ -64,7 +64,7 @@ impl From<LinearizationError> for SteadySetError {
 pub enum Value {
     /// A number.
     Number {
-        /// In closed form, where its equation is linear or quadratic.
+        /// Exact: in closed form, where its equation is linear or quadratic, else as an algebraic number where its equation has rational coefficients.
         exact: Option<Expr>,
         /// Enclosed.
         ball: Ball,

@@ -7,6 +7,7 @@
 )]
 
 mod data;
+mod decimal;
 pub(crate) mod error;
 mod hopf;
 pub mod map;
@@ -108,6 +109,8 @@ pub struct Stability {
     pub all: Option<Descriptor>,
     /// Their parts of second order, where there are such.
     pub parts: Option<Parts>,
+    /// Coordinates that run uniformly, with their rates.
+    pub running: Vec<(String, Expr)>,
     /// Why all parameters have their values.
     pub numbers: Option<Numbers>,
 }
@@ -251,6 +254,7 @@ fn in_symbols(
                     absent,
                     space,
                     all,
+                    running: about.running(),
                     system,
                     numbers: None,
                 });
@@ -531,6 +535,18 @@ pub(crate) fn range(model: &Model, text: &str) -> Result<Range, StabilityError> 
 impl Stability {
     fn graph(&self) -> &Graph {
         &self.system.graph
+    }
+
+    /// The coefficients of the characteristic polynomial, the constant first; those of algebraic numbers over the leading one, as common denominators
+    /// have many digits.
+    fn coefficients(&self) -> Option<Vec<Expr>> {
+        let g = self.graph();
+        let own = &self.question.polynomial.as_ref()?.coefficients;
+        let leading = *own.last()?;
+        if !own.iter().any(|&e| g.holds_algebraic(e)) {
+            return Some(own.clone());
+        }
+        Some(own.iter().map(|&e| g.div(e, leading)).collect())
     }
 
     /// Entries in numbers, with a value for the parameter that was left in; not a number where one has no value.

@@ -106,7 +106,12 @@ pub fn latex(g: &Graph, matrices: &[(&str, &[Vec<Expr>])]) -> String {
     {
         let row = |row: &Vec<Expr>| {
             row.iter()
-                .map(|&e| g.latex(e))
+                .map(|&e| {
+                    // Algebraic numbers are polynomials of many digits.
+                    let value = g.evaluate_f64(&[e], &|_| None);
+                    let value = value.ok().filter(|_| g.holds_algebraic(e));
+                    value.map_or_else(|| g.latex(e), |value| format!("{}", value[0]))
+                })
                 .collect::<Vec<_>>()
                 .join(" & ")
         };

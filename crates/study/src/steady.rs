@@ -12,10 +12,11 @@ pub use search::{Near, Search, Singular};
 use crate::follow::FollowError;
 use crate::stability::error::StabilityError;
 use crate::start;
-use chetaev_mechanics::System;
+use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_model::Model;
 use chetaev_stability::question::{general_parameters, stated_functions};
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
+use chetaev_symbolic::Graph;
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -141,13 +142,15 @@ impl Steady {
     fn json_of_all(&self, set: &SteadySet) -> serde_json::Value {
         let g = &self.system.graph;
         let text = |e: &chetaev_symbolic::Expr| g.text(*e);
+        // Algebraic numbers have no notation in models: they are given by their enclosures.
+        let formula = |e: &chetaev_symbolic::Expr| (!g.holds_algebraic(*e)).then(|| g.text(*e));
         let texts = |all: &[chetaev_symbolic::Expr]| all.iter().map(text).collect::<Vec<_>>();
         let motion = |own: &Found| {
             let values = set.variables.iter().zip(&own.values);
             let values = values.map(|(name, value)| match value {
                 Value::Number { exact, ball } => {
                     let (low, high) = ball.to_decimal_interval(20);
-                    json!({"name": name, "exact": exact.as_ref().map(text), "value": ball.to_f64(), "enclosure": [low, high]})
+                    json!({"name": name, "exact": exact.as_ref().and_then(formula), "value": ball.to_f64(), "enclosure": [low, high]})
                 }
                 Value::Function(e) => json!({"name": name, "exact": text(e)}),
                 Value::Tied => json!({"name": name}),
@@ -155,7 +158,7 @@ impl Steady {
             let velocities = own.motion.iter().flat_map(|motion| {
                 let velocities = self.system.coordinates.iter().zip(&motion.velocities);
                 velocities.filter_map(|(c, v)| {
-                    Some(json!({"name": format!("{}'", c.name), "exact": text(v.as_ref()?)}))
+                    Some(json!({"name": format!("{}'", c.name), "exact": formula(v.as_ref()?)?}))
                 })
             });
             json!({
@@ -169,7 +172,7 @@ impl Steady {
                 "real": own.is_real,
                 "singular_mass": own.is_singular,
                 "assumed": own.is_assumed,
-                "closed_form": own.motion.is_some(),
+                "closed_form": own.motion.as_ref().is_some_and(|motion| is_closed(g, motion)),
             })
         };
         json!({
@@ -184,4 +187,10 @@ impl Steady {
             "motions": set.found.iter().map(motion).collect::<Vec<_>>(),
         })
     }
+}
+
+/// Whether all values of a motion have a closed form.
+fn is_closed(g: &Graph, motion: &SteadyMotion) -> bool {
+    let mut values = motion.positions.iter().chain(&motion.velocities).flatten();
+    values.all(|&e| !g.holds_algebraic(e))
 }

@@ -94,6 +94,14 @@ pub(crate) fn of_node(
             digest
         }
         Node::Pi => Digest::new(2),
+        Node::Algebraic(own) => {
+            let mut digest = Digest::new(10);
+            for coefficient in own.polynomial() {
+                digest.rational(&Rational::from(coefficient));
+            }
+            digest.word(own.place() as u64);
+            digest
+        }
         Node::Symbol(s) => {
             let mut digest = Digest::new(3);
             digest.wide(symbol(*s));

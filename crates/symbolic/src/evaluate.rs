@@ -2,8 +2,12 @@
 
 use crate::graph::Graph;
 use crate::node::{Expr, Function, Node, Symbol};
+use crate::number::ball::Precision;
 use crate::rational;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Bits of the enclosures of algebraic numbers.
+const BITS: usize = 256;
 
 /// Why an expression has no double value at a point.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,7 +32,9 @@ impl Graph {
     ) -> Result<Vec<f64>, EvaluateError> {
         let mut scalar: FxHashMap<Expr, f64> = FxHashMap::default();
         let mut vector: FxHashMap<Expr, Vec<f64>> = FxHashMap::default();
-        for e in self.reachable(roots) {
+        let parts = self.reachable(roots);
+        let enclosed = self.algebraic_sums(&parts);
+        for e in parts {
             let value = match self.node(e) {
                 Node::Matrix { entries, .. } => {
                     vector.insert(e, entries.iter().map(|a| scalar[a]).collect());
@@ -47,11 +53,37 @@ impl Graph {
                 Node::Entry { of, index } => vector[of][*index as usize],
                 Node::Symbol(symbol) => point(*symbol)
                     .ok_or_else(|| EvaluateError::Unbound(self.symbol_text(*symbol)))?,
-                node => evaluate_node(node, &scalar),
+                node => match enclosed.get(&e) {
+                    Some(value) => *value,
+                    None => evaluate_node(node, &scalar),
+                },
             };
             scalar.insert(e, value);
         }
         Ok(roots.iter().map(|r| scalar[r]).collect())
+    }
+
+    /// The sums of algebraic numbers among these, enclosed and rounded: where powers with long coefficients cancel, double precision has no digit left.
+    fn algebraic_sums(&self, parts: &[Expr]) -> FxHashMap<Expr, f64> {
+        let mut algebraic: FxHashSet<Expr> = FxHashSet::default();
+        let mut sums = Vec::new();
+        for &e in parts {
+            let node = self.node(e);
+            let mut is_own = matches!(node, Node::Algebraic(_));
+            node.for_each_child(|child| is_own |= algebraic.contains(&child));
+            if is_own {
+                algebraic.insert(e);
+            }
+            if is_own && matches!(node, Node::Sum { .. }) && self.symbols_in(&[e]).is_empty() {
+                sums.push(e);
+            }
+        }
+        let precision = Precision::new(BITS);
+        let value = |e: Expr| {
+            let found = self.enclose(&[e], &precision, &|_| None).ok()?;
+            Some((e, found.first()?.to_f64()))
+        };
+        sums.into_iter().filter_map(value).collect()
     }
 
     /// `e^x`.
@@ -64,6 +96,7 @@ fn evaluate_node(node: &Node, scalar: &FxHashMap<Expr, f64>) -> f64 {
     match node {
         Node::Number(value) => rational::to_f64(value),
         Node::Pi => std::f64::consts::PI,
+        Node::Algebraic(own) => own.to_f64(),
         Node::Sum { constant, terms } => {
             let start = rational::to_f64(constant);
             terms

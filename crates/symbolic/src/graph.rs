@@ -6,6 +6,7 @@
 use crate::digest;
 use crate::meter;
 use crate::node::{Expr, Node, Symbol};
+use crate::number::algebraic::AlgebraicInteger;
 use crate::rational::{self, Rational};
 use crate::simplify;
 use hashbrown::HashTable;
@@ -241,6 +242,11 @@ impl Graph {
         self.intern(Node::Pi)
     }
 
+    /// A real algebraic integer.
+    pub fn algebraic(&self, number: AlgebraicInteger) -> Expr {
+        self.intern(Node::Algebraic(Box::new(number)))
+    }
+
     /// All nodes below and including `roots`, ascending: children before parents.
     ///
     /// Costs time in proportion to the nodes found, without recursion.
@@ -283,6 +289,12 @@ impl Graph {
                 .cmp(&(self.symbol_name(b), self.symbol_order(b)))
         });
         symbols
+    }
+
+    /// Whether an algebraic number without a closed form occurs in `e`.
+    pub fn holds_algebraic(&self, e: Expr) -> bool {
+        let mut parts = self.reachable(&[e]).into_iter();
+        parts.any(|part| matches!(self.node(part), Node::Algebraic(_)))
     }
 
     /// Whether any of `symbols` occurs in `e`.

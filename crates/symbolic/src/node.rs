@@ -1,5 +1,6 @@
 //! The nodes of an expression graph.
 
+use crate::number::algebraic::AlgebraicInteger;
 use crate::rational::Rational;
 
 /// A handle to an interned expression of one [`Graph`](crate::graph::Graph).
@@ -129,6 +130,8 @@ pub enum Node {
     Number(Rational),
     /// The constant π.
     Pi,
+    /// A real zero of a monic polynomial with integers as coefficients.
+    Algebraic(Box<AlgebraicInteger>),
     /// A symbol.
     Symbol(Symbol),
     /// `constant + Σ coefficient · term`; terms are neither numbers nor sums, and carry no coefficient of their own.
@@ -188,7 +191,7 @@ impl Node {
     /// Calls `visit` for every child, in order.
     pub fn for_each_child(&self, mut visit: impl FnMut(Expr)) {
         match self {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Number(_) | Node::Pi | Node::Algebraic(_) | Node::Symbol(_) => {}
             Node::Sum { terms, .. } => terms.iter().for_each(|(term, _)| visit(*term)),
             Node::Product { factors, .. } => factors.iter().for_each(|factor| visit(*factor)),
             Node::Power { base, exponent } => {

@@ -121,6 +121,7 @@ impl Graph {
         Some(match node {
             Node::Number(value) => self.number(value.clone()),
             Node::Pi => self.pi(),
+            Node::Algebraic(own) => self.algebraic((**own).clone()),
             Node::Sum { constant, terms } => {
                 let mut parts: Vec<Expr> = terms
                     .iter()

@@ -135,6 +135,10 @@ impl Rules<'_> {
                 let pi = self.precision.pi().ok()?.midpoint();
                 self.push(Rule::Constant(pi))
             }
+            Node::Algebraic(own) => {
+                let own = own.enclose(self.precision).ok()?.midpoint();
+                self.push(Rule::Constant(own))
+            }
             Node::Symbol(symbol) => match place(*symbol) {
                 Some(place) => self.push(Rule::Given(place)),
                 None => self.push(Rule::Constant(fixed(*symbol)?)),

@@ -231,10 +231,12 @@ fn mathieu() {
             2e-12,
         );
     }
-    for (value, expected) in [
+    type Passed<'a> = &'a [(f64, &'a str)];
+    let cases: [(f64, (f64, f64), Passed<'_>); 3] = [
         (
             1.0,
-            [
+            (-6.0, 12.0),
+            &[
                 (-0.455_138_604_107_413_55, "1"),
                 (-0.110_248_816_992_095_17, "-1"),
                 (1.859_108_072_514_363_5, "-1"),
@@ -246,7 +248,8 @@ fn mathieu() {
         ),
         (
             5.0,
-            [
+            (-6.0, 12.0),
+            &[
                 (-5.800_046_020_851_508, "1"),
                 (-5.790_080_598_637_771, "-1"),
                 (1.858_187_541_547_751, "-1"),
@@ -256,11 +259,24 @@ fn mathieu() {
                 (11.548_832_036_343_401, "-1"),
             ],
         ),
-    ] {
+        (
+            10.0,
+            (-3.0, 22.0),
+            &[
+                (-2.399_142_400_036_264_11, "-1"),
+                (-2.382_158_235_956_955_72, "1"),
+                (7.717_369_849_779_622_64, "1"),
+                (7.986_069_144_681_660_44, "-1"),
+                (15.502_784_369_732_575_6, "-1"),
+                (17.381_380_678_623_043, "1"),
+                (21.104_633_708_657_791_7, "1"),
+            ],
+        ),
+    ];
+    for (value, range, expected) in cases {
         let parameters = vec![(a_s, 0.5), (qs, value)];
         let flow = Flow::of_rates(own.g.clone(), vec![xs, vs], rates.clone(), parameters);
         let mut orbits = Shooting::new(&flow, Some(a_s), Some(g.pi())).unwrap();
-        let range = (-6.0, 12.0);
         let found = follow(&mut orbits, (&[0.0, 0.0], 0.5), range, points(2000)).unwrap();
         let all: Vec<(f64, &str)> = found
             .special
@@ -276,8 +292,8 @@ fn mathieu() {
             .collect();
         assert_eq!(all.len(), expected.len(), "{all:?}");
         for ((found, passed), (at, expected)) in all.iter().zip(expected) {
-            is_close(*found, at, 2e-12);
-            assert_eq!(*passed, expected);
+            is_close(*found, *at, 2e-12);
+            assert_eq!(passed, expected);
         }
     }
 }
@@ -325,6 +341,15 @@ fn henon_heiles() {
     is_close(spectrum.values[1].im, 0.750_347_683_325_874_5, 1e-11);
     let closed = orbits.evaluate(&exact, 0.0).unwrap().residual.amax();
     assert!(closed < 1e-12, "{closed:e}");
+    // The same line at E = 0.16, close to where it escapes.
+    let start = [0.0, 0.879_596_545_135_010_466, 0.0, 0.0];
+    let exact = orbits.unknowns(&start, 9.310_458_304_601_897_07);
+    let spectrum = orbits.spectrum(&exact, 0.0, 1).unwrap();
+    assert_eq!(spectrum.values.len(), 2);
+    is_close(spectrum.values[0].re, 0.515_743_986_588_223_943, 1e-10);
+    is_close(spectrum.values[1].im, 0.856_742_750_362_141_017, 1e-10);
+    let closed = orbits.evaluate(&exact, 0.0).unwrap().residual.amax();
+    assert!(closed < 1e-11, "{closed:e}");
 }
 
 /// Sensitivities of first and second order of `x = x₀ e^{a t} / (1 + x₀ (e^{a t} − 1))` (logistic growth), in closed form.

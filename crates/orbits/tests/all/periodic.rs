@@ -56,6 +56,47 @@ V = "g l cos(theta)"
     );
 }
 
+/// Shaken with half its length Kapitza's pendulum stands between two rates: −4 g/(l Ω²) from a₀(1) = −0.4551386… to b₁(1) = −0.1102488… of Mathieu's
+/// equation with q = 2 a/l = 1 (McLachlan 1947), where a multiplier passes 1 and −1. With a = 0.02 there is no upper rate: b₁(0.2) = 0.795… is positive.
+#[test]
+fn kapitza_between_two_rates() {
+    let (flow, read) = flow(
+        r#"
+coordinates = ["theta"]
+parameters = { l = 0.2, a = 0.1, g = 9.81, Omega = 30 }
+[lagrangian]
+T = "1/2 l^2 theta'^2 + l a Omega sin(Omega t) sin(theta) theta'"
+V = "g l cos(theta)"
+"#,
+        &[("theta", 0.0), ("theta'", 0.0)],
+    );
+    let omega = flow.graph.intern_symbol("Omega", 0);
+    let mut orbits = Shooting::new(&flow, Some(omega), Some(read("2 pi/Omega"))).unwrap();
+    let found = follow(&mut orbits, (&[0.0, 0.0], 30.0), (15.0, 60.0), points(500)).unwrap();
+    let rate = |characteristic: f64| (4.0 * 9.81 / (0.2 * characteristic)).sqrt();
+    let expected = [
+        (rate(0.455_138_604_107_413_548), Kind::BranchPoint),
+        (rate(0.110_248_816_992_095_17), Kind::PeriodDoubling),
+    ];
+    assert_eq!(found.special.len(), 2, "{:?}", found.special);
+    for (own, (at, kind)) in found.special.iter().zip(expected) {
+        is_close(own.point.parameter, at, 1e-9);
+        assert_eq!(own.kind, kind);
+    }
+    // The characteristic value itself, in the equation with q = 0.2.
+    let (flow, read) = mathieus("a = 0.6, q = 0.2");
+    let a = flow.graph.intern_symbol("a", 0);
+    let mut orbits = Shooting::new(&flow, Some(a), Some(read("pi"))).unwrap();
+    let found = follow(&mut orbits, (&[0.0, 0.0], 0.6), (0.3, 1.0), points(500)).unwrap();
+    assert_eq!(found.special.len(), 1, "{:?}", found.special);
+    is_close(
+        found.special[0].point.parameter,
+        0.795_123_868_083_863_287,
+        2e-12,
+    );
+    assert_eq!(found.special[0].kind, Kind::PeriodDoubling);
+}
+
 /// A force cos(1.2 t) repeats after 2π/1.2 and its multiples: what closes after another time is no periodic orbit.
 #[test]
 fn a_period_is_one_of_the_force() {
@@ -152,19 +193,18 @@ fn an_orbit_in_all_velocities() {
     );
 }
 
+/// Mathieu's equation with these parameters.
+fn mathieus(parameters: &str) -> (Flow, impl Fn(&str) -> chetaev_symbolic::Expr) {
+    let head = format!("coordinates = [\"x\"]\nparameters = {{ {parameters} }}\n");
+    let energies = "[lagrangian]\nT = \"1/2 x'^2\"\nV = \"1/2 (a - 2 q cos(2 t)) x^2\"\n";
+    let at_rest = [("x", 0.0), ("x'", 0.0)];
+    flow(&format!("{head}{energies}"), &at_rest)
+}
+
 /// The same boundary of Mathieu's equation from a model.
 #[test]
 fn mathieu_from_a_model() {
-    let (flow, read) = flow(
-        r#"
-coordinates = ["x"]
-parameters = { a = 0.3, q = 0.5 }
-[lagrangian]
-T = "1/2 x'^2"
-V = "1/2 (a - 2 q cos(2 t)) x^2"
-"#,
-        &[("x", 0.0), ("x'", 0.0)],
-    );
+    let (flow, read) = mathieus("a = 0.3, q = 0.5");
     let a = flow.graph.intern_symbol("a", 0);
     let mut orbits =
         chetaev_orbits::periodic::Shooting::new(&flow, Some(a), Some(read("pi"))).unwrap();

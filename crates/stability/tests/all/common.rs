@@ -11,6 +11,7 @@ use chetaev_mechanics::{Prepared, SteadyMotion, System};
 use chetaev_model::{load, Model};
 use chetaev_stability::characteristic::Characteristic;
 use chetaev_stability::claims::CLAIMS;
+use chetaev_stability::eigenvalues::{as_known, Known};
 use chetaev_stability::hurwitz::{ranges, Ranges};
 use chetaev_stability::linearization::{linearize, Linearization, LinearizationError};
 use chetaev_stability::spectrum::Spectrum;
@@ -141,6 +142,28 @@ impl Case {
         .unwrap()
     }
 
+    /// The eigenvalues about a motion at the values that the model states, without zeros of the family.
+    pub(crate) fn spectrum(&self, motion: &SteadyMotion) -> Vec<(f64, f64)> {
+        let linear = self.linear(motion, "").unwrap();
+        let (left, right) = (
+            self.numbers(&linear.left, &[]),
+            self.numbers(&linear.right, &[]),
+        );
+        let known = Known {
+            zeros: linear.family,
+            multiple: Vec::new(),
+        };
+        let found = as_known(&left, &right, &known).unwrap();
+        let found = found.iter().map(|l| (l.re, l.im));
+        found.filter(|l| *l != (0.0, 0.0)).collect()
+    }
+
+    /// A motion that the model names.
+    pub(crate) fn named(&self, name: &str) -> &SteadyMotion {
+        let mut all = self.system.steady.iter();
+        all.find(|own| own.name == name).unwrap()
+    }
+
     /// The verdict on a claim of this crate, at the values that the model states.
     pub(crate) fn verdict(&self, claim: &str, subject: &str) -> Verdict {
         self.verdict_on(claim, Some(subject))
@@ -168,5 +191,17 @@ impl Case {
             Verdict::Undecided { tried } => format!("undecided: {tried}"),
             other => other.word().into(),
         }
+    }
+}
+
+/// Each of the eigenvalues is found once, to this part of the largest, and there are no others.
+pub(crate) fn are_eigenvalues(found: &[(f64, f64)], expected: &[(f64, f64)], part: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    let sizes = expected.iter().map(|l| l.0.hypot(l.1));
+    let size = sizes.fold(0.0, f64::max);
+    for &(re, im) in expected {
+        let is_near = |own: &&(f64, f64)| (own.0 - re).hypot(own.1 - im) < part * size;
+        let count = found.iter().filter(is_near).count();
+        assert_eq!(count, 1, "{re} {im}: {found:?}");
     }
 }

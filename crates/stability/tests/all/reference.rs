@@ -377,11 +377,8 @@ V = "m1 g y1 + m2 g y2"
     ));
 }
 
-/// The caster with an elastic pivot: stable exactly below v = e c/(J − m b (e − b)) (Den Hartog 1940; Stépán 1991 for the class).
-#[test]
-fn shimmy_of_a_caster() {
-    let case = Case::new(
-        r#"
+/// A caster that trails behind a pivot on a spring.
+pub(crate) const CASTER: &str = r#"
 coordinates = ["X", "y", "theta"]
 parameters = { m = 5, J = 0.06, b = 0.03, e = 0.1, k = 20000, c = 2, v = 1, M = 1 }
 [define]
@@ -395,8 +392,12 @@ theta = "-c theta'"
 [constraints]
 drive = "X' = v"
 wheel = "-X' sin(theta) + y' cos(theta) - e theta' = 0"
-"#,
-    );
+"#;
+
+/// The caster with an elastic pivot: stable exactly below v = e c/(J − m b (e − b)) (Den Hartog 1940; Stépán 1991 for the class).
+#[test]
+fn shimmy_of_a_caster() {
+    let case = Case::new(CASTER);
     let motion = case.motion(&[
         ("y", "0"),
         ("theta", "0"),
@@ -482,12 +483,12 @@ V = "m g z"
 "#;
 
 /// The ball with this place of the mass centre and these further sections, spinning about the vertical at n.
-fn tippe_top(a: &str, further: &str) -> Case {
+pub(crate) fn tippe_top(a: &str, further: &str) -> Case {
     let text = TIPPE_TOP.replace("a = 0.003", &format!("a = {a}"));
     Case::new(&format!("{text}{further}"))
 }
 
-fn spinning(case: &Case) -> chetaev_mechanics::SteadyMotion {
+pub(crate) fn spinning(case: &Case) -> chetaev_mechanics::SteadyMotion {
     case.motion(&[
         ("al", "0"),
         ("be", "0"),

@@ -4,7 +4,9 @@
 use crate::common::Case;
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
+use chetaev_stability::real_roots::sign_of;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
+use std::cmp::Ordering;
 
 /// The steady motions for the values that the model states; each with a closed form is steady by the check that linearization makes.
 fn found(case: &Case) -> SteadySet {
@@ -109,7 +111,21 @@ x = 1
         &own,
         &[&[zero(40.0), 0.0], &[zero(80.0), 0.0], &[-zero(20.0), 0.0]],
     );
-    assert!(own.found.iter().all(|found| found.motion.is_none()));
+    // They are exact as algebraic numbers: the equation holds, and x³ − 3x + 1 itself vanishes, which no enclosure says.
+    let case = Case::new(
+        "coordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\nV = \"x^4/4 - 3/2 x^2 + x\"\n",
+    );
+    let g = &case.system.graph;
+    for found in &found(&case).found {
+        let x = found.motion.as_ref().unwrap().positions[0].unwrap();
+        let cubic = g.substitute(case.read("x^3 - 3 x + 1"), &[(case.read("x"), x)]);
+        assert_eq!(sign_of(g, cubic), Some(Ordering::Equal));
+        let other = g.substitute(
+            case.read("x^3 - 3 x + 1.0000000001"),
+            &[(case.read("x"), x)],
+        );
+        assert_eq!(sign_of(g, other), Some(Ordering::Greater));
+    }
 }
 
 #[test]
@@ -269,9 +285,16 @@ fn the_motion_nearest_to_a_guess_is_meant() {
     let values = stated.system.parameter_values();
     let motion = &stated.system.steady[0];
     assert!(Expansion::new(&stated.system, terms, selection, motion, &values).is_err());
-    // At rest the zeros of x³ − 3x + 1 have no closed form here.
-    let cubic = Case::new("coordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\nV = \"x^4/4 - 3/2 x^2 + x\"\n[steady.low]\nx = { guess = 1.5 }\n");
-    assert!(meant(&cubic).unwrap_err().contains("closed form"));
+    // The zeros of x³ − 3x + 1 have no closed form here, and are exact as algebraic numbers: the largest is 2 cos 40°.
+    let cubic = Case::new("coordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\nV = \"x^4/4 - 3/2 x^2 + x\"\n[steady.low]\nx = { guess = 1.5 }\n\"x'\" = 0\n");
+    let found = meant(&cubic).unwrap();
+    assert!(
+        (found[0] - 2.0 * 40_f64.to_radians().cos()).abs() < 1e-14,
+        "{found:?}"
+    );
+    // A cubic over the numbers of another one is not solved.
+    let over = Case::new("coordinates = [\"x\", \"y\"]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\n[forces]\nx = \"1 + x - x^3\"\ny = \"x + y - y^3\"\n[steady.far]\nx = { guess = 1.3 }\ny = { guess = 1.4 }\n\"x'\" = 0\n\"y'\" = 0\n");
+    assert!(meant(&over).unwrap_err().contains("closed form"));
 }
 
 /// A family takes what is given for its parameter: the sleigh at a speed that is stated, the turning guessed.

@@ -117,7 +117,7 @@ theta = 0
     }
 }
 
-const TOP: &str = r#"
+pub(crate) const TOP: &str = r#"
 coordinates = ["a", "b", "c"]
 parameters = { A = 0.0025, C = 0.0009, w = 0.2943, n = 80 }
 [lagrangian]
@@ -210,13 +210,10 @@ theta = "acos(3/5)"
     }
 }
 
-/// λ⁴ + λ² + (27/4) μ (1 − μ): bounded linear motions below Routh's ratio, unstable above; of the nonlinear motion nothing follows, and it is
-/// unstable at the resonances (Gascheau 1843; Markeev 1969).
-#[test]
-fn the_triangular_point() {
-    let model = |mu: &str| {
-        Case::new(&format!(
-            r#"
+/// The restricted problem of three bodies at a triangular point.
+pub(crate) fn triangular(mu: &str) -> Case {
+    Case::new(&format!(
+        r#"
 coordinates = ["x", "y"]
 parameters = {{ mu = {mu} }}
 [lagrangian]
@@ -227,16 +224,21 @@ y = "sqrt(3)/2"
 "x'" = 0
 "y'" = 0
 "#
-        ))
-    };
+    ))
+}
+
+/// λ⁴ + λ² + (27/4) μ (1 − μ): bounded linear motions below Routh's ratio, unstable above; of the nonlinear motion nothing follows, and it is
+/// unstable at the resonances (Gascheau 1843; Markeev 1969).
+#[test]
+fn the_triangular_point() {
     for mu in ["0.01215", "0.02429389714", "0.01351601602"] {
-        let case = model(mu);
+        let case = triangular(mu);
         assert_eq!(case.said("stability.linear", "L4"), "proved");
         assert!(case
             .said("stability.nonlinear", "L4")
             .starts_with("undecided"));
     }
-    let case = model("0.05");
+    let case = triangular("0.05");
     let Verdict::Refuted(own) = case.verdict("stability.nonlinear", "L4") else {
         panic!("unstable");
     };
@@ -244,12 +246,10 @@ y = "sqrt(3)/2"
     assert!((low - 0.18198568988426841).abs() < 1e-15);
 }
 
-/// Gyroscopic forces stabilize what dissipation makes unstable again (Thomson and Tait 1879, Chetaev 1946).
-#[test]
-fn gyroscopic_stabilization() {
-    let model = |d: &str, gyro: &str| {
-        Case::new(&format!(
-            r#"
+/// Two coordinates on a hill, with a gyroscopic force and damping.
+pub(crate) fn gyroscopic(d: &str, gyro: &str) -> Case {
+    Case::new(&format!(
+        r#"
 coordinates = ["x", "y"]
 parameters = {{ G = {gyro}, d = {d} }}
 [lagrangian]
@@ -263,14 +263,27 @@ y = 0
 "x'" = 0
 "y'" = 0
 "#
-        ))
-    };
-    assert_eq!(model("0", "3").said("stability.linear", "up"), "proved");
-    // The equations are linear themselves, so that there is no other motion.
-    assert_eq!(model("0", "3").said("stability.nonlinear", "up"), "proved");
-    assert_eq!(model("0", "2").said("stability.spectral", "up"), "refuted");
+    ))
+}
+
+/// Gyroscopic forces stabilize what dissipation makes unstable again (Thomson and Tait 1879, Chetaev 1946).
+#[test]
+fn gyroscopic_stabilization() {
     assert_eq!(
-        model("0.1", "3").said("stability.nonlinear", "up"),
+        gyroscopic("0", "3").said("stability.linear", "up"),
+        "proved"
+    );
+    // The equations are linear themselves, so that there is no other motion.
+    assert_eq!(
+        gyroscopic("0", "3").said("stability.nonlinear", "up"),
+        "proved"
+    );
+    assert_eq!(
+        gyroscopic("0", "2").said("stability.spectral", "up"),
+        "refuted"
+    );
+    assert_eq!(
+        gyroscopic("0.1", "3").said("stability.nonlinear", "up"),
         "refuted"
     );
 }
@@ -308,13 +321,11 @@ c = 0
     }
 }
 
-/// λ⁴ + αnλ³ + (b₀ + b₂n²)λ² + αn³λ + e₀ + e₂n² + e₄n⁴: stable in one direction of spin above a threshold where b₀ > e₂, in none otherwise (Bondi 1986).
-#[test]
-fn the_rattleback() {
-    let stone = |m: [&str; 9]| {
-        let [semi_a, semi_b, semi_c, h, ia, ib, ic, id, n] = m;
-        Case::new(&format!(
-            r#"
+/// A rattleback: half axes, depth of the mass centre, three moments and the product of inertia, spin.
+pub(crate) fn stone(m: [&str; 9]) -> Case {
+    let [semi_a, semi_b, semi_c, h, ia, ib, ic, id, n] = m;
+    Case::new(&format!(
+        r#"
 coordinates = ["x", "y", "ga", "al", "be"]
 parameters = {{ m = 1, a = {semi_a}, b = {semi_b}, c = {semi_c}, h = {h}, A = {ia}, B = {ib}, Cz = {ic}, D = {id}, g = 9.81, n = {n} }}
 [quasi_velocities]
@@ -356,8 +367,12 @@ be = 0
 "be'" = 0
 "ga'" = "n"
 "#
-        ))
-    };
+    ))
+}
+
+/// λ⁴ + αnλ³ + (b₀ + b₂n²)λ² + αn³λ + e₀ + e₂n² + e₄n⁴: stable in one direction of spin above a threshold where b₀ > e₂, in none otherwise (Bondi 1986).
+#[test]
+fn the_rattleback() {
     let kane = stone([
         "0.2", "0.03", "0.02", "0.01", "0.0002", "0.0016", "0.0017", "-0.00002", "5",
     ]);

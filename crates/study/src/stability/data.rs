@@ -1,5 +1,6 @@
 //! What was asked of a steady motion, as data for other programs: matrices in numbers, LaTeX, JSON.
 
+use super::decimal::{enclosure, notation};
 use super::{named_parts, Numbers, Stability};
 use crate::state_space::{latex, Matrices};
 use chetaev_stability::descriptor::Descriptor;
@@ -81,7 +82,7 @@ impl Stability {
         let g = self.graph();
         let linear = &self.question.linear;
         let exact = |rows: &[Vec<Expr>]| -> Value {
-            let row = |row: &Vec<Expr>| row.iter().map(|&e| g.text(e)).collect::<Vec<_>>();
+            let row = |row: &Vec<Expr>| row.iter().map(|&e| notation(g, e)).collect::<Vec<_>>();
             json!(rows.iter().map(row).collect::<Vec<_>>())
         };
         let pairs = |list: Vec<(f64, f64)>| {
@@ -91,9 +92,9 @@ impl Stability {
         };
         let polynomial = self.question.polynomial.as_ref().map(|p| {
             json!({
-                "coefficients": p.coefficients.iter().map(|&e| g.text(e)).collect::<Vec<_>>(),
+                "coefficients": self.coefficients().iter().flatten().map(|&e| notation(g, e)).collect::<Vec<_>>(),
                 "factors": self.question.spectrum.factors.iter().map(|(f, power)| json!({
-                    "coefficients": f.iter().map(|&e| g.text(e)).collect::<Vec<_>>(),
+                    "coefficients": f.iter().map(|&e| notation(g, e)).collect::<Vec<_>>(),
                     "multiplicity": power,
                 })).collect::<Vec<_>>(),
                 "zeros_of_family": p.zeros,
@@ -105,8 +106,9 @@ impl Stability {
             "motion": self.motion.name,
             "variables": linear.names,
             "ignorable": linear.ignorable,
+            "running": self.running.iter().map(|(name, e)| json!({"name": name, "rate": notation(g, *e)})).collect::<Vec<_>>(),
             "family": linear.family,
-            "speeds": linear.speeds.iter().map(|(name, e)| json!({"name": name, "definition": g.text(*e)})).collect::<Vec<_>>(),
+            "speeds": linear.speeds.iter().map(|(name, e)| json!({"name": name, "definition": notation(g, *e)})).collect::<Vec<_>>(),
             "E": exact(&linear.left),
             "F": exact(&linear.right),
             "inputs": self.space.inputs,
@@ -122,6 +124,10 @@ impl Stability {
             "characteristic_polynomial": polynomial,
             "eigenvalues": self.eigenvalues_at(self.stated_exactly()).map(pairs),
         });
+        let enclosed = self.enclosed();
+        if !enclosed.is_empty() {
+            value["enclosed"] = json!(enclosed);
+        }
         if let Some(all) = &self.all {
             value["all"] = json!({
                 "variables": all.space.states,
@@ -177,6 +183,33 @@ impl Stability {
                 .collect();
         }
         value
+    }
+
+    /// Entries that are algebraic numbers, rounded in the matrices, with their enclosures.
+    fn enclosed(&self) -> Vec<Value> {
+        let (g, linear, space) = (self.graph(), &self.question.linear, &self.space);
+        let all: [(&'static str, &[Vec<Expr>]); 6] = [
+            ("E", &linear.left),
+            ("F", &linear.right),
+            ("A", &space.a),
+            ("B", &space.b),
+            ("C", &space.c),
+            ("D", &space.d),
+        ];
+        let of_row = |name: &'static str, row: usize, entries: &[Expr]| -> Vec<Value> {
+            let entries = entries.iter().enumerate();
+            let found = entries.filter_map(|(column, &e)| Some((column, enclosure(g, e)?)));
+            found
+                .map(|(column, (low, high))| {
+                    json!({"matrix": name, "row": row, "column": column, "enclosure": [low, high]})
+                })
+                .collect()
+        };
+        let of = |(name, rows): (&'static str, &[Vec<Expr>])| -> Vec<Value> {
+            let rows = rows.iter().enumerate();
+            rows.flat_map(|(at, row)| of_row(name, at, row)).collect()
+        };
+        all.into_iter().flat_map(of).collect()
     }
 
     fn critical(&self, name: &str, boundary: &Boundary) -> Value {

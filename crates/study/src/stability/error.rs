@@ -41,8 +41,8 @@ pub enum StabilityError {
         /// Those that were found, in words.
         found: String,
     },
-    /// The values of a motion that was found have no closed form.
-    #[error("the motion {name} is known by enclosures of its values only, and linear equations need values in closed form")]
+    /// The values of a motion that was found are not known exactly.
+    #[error("the motion {name} is known by enclosures of its values only: they are zeros over other zeros without a closed form, and linear equations need exact values; `chetaev follow` takes it in numbers")]
     NoClosedForm {
         /// Its number.
         name: String,

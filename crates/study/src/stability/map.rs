@@ -3,8 +3,9 @@
 //! The linear equations are exact in both parameters. On a grid the eigenvalues say on which side of the axis they lie; between two places of
 //! different kinds the boundary is located by bisection, and the places are joined to curves (marching squares). The functions whose zeros these
 //! curves are, factors of the constant coefficient, of Hurwitz's last determinant but one and of the leading coefficient (Liénard and Chipart
-//! 1914), are given exactly where they are short.
+//! 1914), are given exactly where they are short, else with decimal coefficients.
 
+use super::decimal::same_zeros;
 use super::{at, check_parameter, motions, range, with_values, Range, StabilityError, Wanted};
 use crate::start;
 use chetaev_mechanics::{SteadyMotion, System};
@@ -30,7 +31,7 @@ pub const SIDE: usize = 200;
 const HALVINGS: usize = 48;
 /// Where eigenvalues come in opposite pairs none is left of the axis; this part of the largest counts as on it.
 const ON_AXIS: f64 = 1e-7;
-/// Longer equations are not printed.
+/// Longer equations have decimal coefficients.
 const LONGEST: usize = 400;
 
 /// What a motion is at a place.
@@ -84,8 +85,19 @@ pub struct StabilityMap {
     pub kinds: Vec<Kind>,
     /// Boundaries.
     pub curves: Vec<Curve>,
-    /// Functions on whose zeros they lie, with what passes there; `opposite` where two eigenvalues are and nothing passes.
-    pub equations: Vec<(&'static str, String)>,
+    /// Functions on whose zeros they lie.
+    pub equations: Vec<Equation>,
+}
+
+/// A function on whose zeros boundaries lie.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// What passes there; `opposite` where two eigenvalues are and nothing passes.
+    pub kind: &'static str,
+    /// The function, a polynomial in both parameters with decimal coefficients where the exact one is long.
+    pub function: String,
+    /// Whether its coefficients are rounded.
+    pub is_rounded: bool,
 }
 
 /// How a map is computed; the map does not depend on the threads.
@@ -424,9 +436,9 @@ impl Grid<'_> {
         found
     }
 
-    /// The functions that are short enough to be read, with what happens on their zeros. Where Hurwitz's last determinant but one vanishes two
+    /// The functions with what happens on their zeros, those that are too long to be read with decimal coefficients. Where Hurwitz's last determinant but one vanishes two
     /// eigenvalues are opposite (Orlando 1911): a pair on the axis where that is a boundary, and otherwise perhaps λ and −λ.
-    fn equations(&self, all: &[Dividing], used: &BTreeSet<usize>) -> Vec<(&'static str, String)> {
+    fn equations(&self, all: &[Dividing], used: &BTreeSet<usize>) -> Vec<Equation> {
         let read = |(at, own): (usize, &Dividing)| {
             let is_of_pairs = matches!(own.kind, "pair" | "collision");
             let kind = if is_of_pairs && !used.contains(&at) {
@@ -434,10 +446,20 @@ impl Grid<'_> {
             } else {
                 own.kind
             };
-            (kind, self.g.text(own.function))
+            let exact = self.g.text(own.function);
+            let is_rounded = exact.len() > LONGEST;
+            let function = if is_rounded {
+                same_zeros(self.g, own.function, &self.over)?
+            } else {
+                exact
+            };
+            Some(Equation {
+                kind,
+                function,
+                is_rounded,
+            })
         };
-        let found = all.iter().enumerate().map(read);
-        found.filter(|(_, text)| text.len() <= LONGEST).collect()
+        all.iter().enumerate().filter_map(read).collect()
     }
 }
 
@@ -552,15 +574,15 @@ impl StabilityMap {
                 curve.points.len()
             );
         }
-        for (kind, e) in &self.equations {
-            let what = match *kind {
+        for own in &self.equations {
+            let what = match own.kind {
                 "pair" => "pairs pass where boundaries are zeros of",
                 "collision" => "two pairs meet where boundaries are zeros of",
                 "opposite" => "two eigenvalues are opposite, and the stability is the same on both sides, on zeros of",
                 "infinity" => "an eigenvalue goes to infinity on zeros of",
                 _ => "eigenvalues are zero on zeros of",
             };
-            let _ = writeln!(text, "{what} {e}");
+            let _ = writeln!(text, "{what} {}", own.function);
         }
         text
     }
@@ -582,7 +604,7 @@ impl StabilityMap {
                 "kind": own.kind,
                 "points": own.points.iter().map(|(x, y)| json!([x, y])).collect::<Vec<_>>(),
             })).collect::<Vec<_>>(),
-            "equations": self.equations.iter().map(|(kind, e)| json!({"kind": kind, "function": e})).collect::<Vec<_>>(),
+            "equations": self.equations.iter().map(|own| json!({"kind": own.kind, "function": own.function, "rounded": own.is_rounded})).collect::<Vec<_>>(),
         })
     }
 }

@@ -1,7 +1,8 @@
 //! What was asked of a steady motion, in words and columns for a terminal.
 
+use super::decimal::{decimal_polynomial, notation};
 use super::{named_parts, Mode, Numbers, Stability};
-use crate::decimals::{real, Decimals};
+use crate::decimals::Decimals;
 use chetaev_mechanics::system::Parameter;
 use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
 use chetaev_stability::eigenvalues::{unreached, Unreached};
@@ -10,8 +11,7 @@ use chetaev_stability::multiplicity::defects;
 use chetaev_stability::question::Place;
 use chetaev_stability::real_roots::decimal;
 use chetaev_stability::spectrum::expression;
-use chetaev_symbolic::factors::coefficients;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph};
 use std::fmt::Write as _;
 
 impl Stability {
@@ -35,7 +35,7 @@ impl Stability {
                 .zip(slopes)
                 .filter(|(_, e)| !g.is_zero(**e));
             let terms: Vec<String> = terms
-                .map(|(own, e)| format!("({}) {own}", g.text(*e)))
+                .map(|(own, e)| format!("({}) {own}", notation(g, *e)))
                 .collect();
             let sum = if terms.is_empty() {
                 "0".into()
@@ -81,9 +81,18 @@ impl Stability {
                 text,
                 "\nThe inputs reach {reached} of {n} dimensions, the outputs show {seen}"
             );
-            if reached < n {
-                text.push_str(&self.unreached_text());
-            }
+        }
+        if space.inputs.is_empty() && seen < n {
+            let _ = writeln!(text, "\nThe outputs show {seen} of {n} dimensions");
+        }
+        let [a, b, c] = [&space.a, &space.b, &space.c].map(|own| self.numbers(own, self.stated()));
+        if !space.inputs.is_empty() && reached < n {
+            text.push_str(&unreached_text(&a, &b, "reached"));
+        }
+        if seen < n {
+            // What outputs do not show, inputs do not reach in the transposed equations (Kalman 1960).
+            let (a, c) = (transposed(&a, n), transposed(&c, n));
+            text.push_str(&unreached_text(&a, &c, "seen"));
         }
         for (output, row) in space
             .outputs
@@ -93,40 +102,6 @@ impl Stability {
             for (input, e) in space.controls().iter().zip(row) {
                 let _ = writeln!(text, "  {}/{input} = {}", as_factor(output), shown(g, e));
             }
-        }
-        text
-    }
-
-    /// The eigenvalues whose modes no input reaches, in numbers.
-    fn unreached_text(&self) -> String {
-        let (space, at) = (&self.space, self.stated());
-        let [a, b] = [&space.a, &space.b].map(|rows| self.numbers(rows, at));
-        let list = unreached(&a, &b).unwrap_or_default();
-        let decimals = Decimals::of(
-            list.iter()
-                .map(|own| (own.eigenvalue.re, own.eigenvalue.im)),
-        );
-        let eigenvalue = |own: &Unreached| decimals.complex((own.eigenvalue.re, own.eigenvalue.im));
-        let (whole, some): (Vec<Unreached>, Vec<Unreached>) =
-            list.into_iter().partition(|own| own.count >= own.modes);
-        let mut text = String::new();
-        if !whole.is_empty() {
-            let whole: Vec<String> = whole.iter().map(eigenvalue).collect();
-            let _ = writeln!(
-                text,
-                "  the modes with the eigenvalues {} are not reached",
-                whole.join(", ")
-            );
-        }
-        for own in &some {
-            let _ = writeln!(
-                text,
-                "  of the {} independent modes with the eigenvalue {} {} {} not reached",
-                own.modes,
-                eigenvalue(own),
-                own.count,
-                if own.count == 1 { "is" } else { "are" }
-            );
         }
         text
     }
@@ -223,6 +198,7 @@ impl Stability {
                 linear.ignorable.join(", ")
             );
         }
+        text.push_str(&self.running_text());
         if linear.family > 0 {
             let _ = writeln!(
                 text,
@@ -234,12 +210,26 @@ impl Stability {
             let _ = writeln!(text, "{}", self.of_numbers(why));
         }
         for (name, definition) in &linear.speeds {
-            let written = self.graph().text(*definition);
+            let written = notation(self.graph(), *definition);
             if *name != written {
                 let _ = writeln!(text, "{name} = {written}");
             }
         }
         text
+    }
+
+    /// In which frame the deviations are measured, where coordinates run on.
+    fn running_text(&self) -> String {
+        let g = self.graph();
+        let rate = |(name, e): &(String, Expr)| format!("{name}' = {}", notation(g, *e));
+        let rates: Vec<String> = self.running.iter().map(rate).collect();
+        if rates.is_empty() {
+            return String::new();
+        }
+        format!(
+            "Running on uniformly: {}; deviations and eigenvalues are those of the other coordinates as the model defines them, and in axes that turn otherwise they may be others\n",
+            rates.join(", ")
+        )
     }
 
     /// What is said where no parameter is left in.
@@ -274,14 +264,15 @@ impl Stability {
         }
         text.push_str(":\n");
         let shifted = polynomial.further_zeros;
-        for (power, &e) in polynomial.coefficients.iter().enumerate().rev() {
+        let coefficients = self.coefficients().unwrap_or_default();
+        for (power, &e) in coefficients.iter().enumerate().rev() {
             let _ = writeln!(text, "  λ^{}: {}", power + shifted, shown(g, e));
         }
         let factors = &self.question.spectrum.factors;
         if factors.len() > 1 || factors.iter().any(|(_, power)| *power > 1) {
             let factor = |(f, power): &(Vec<Expr>, u32)| {
                 let symbol = g.intern_symbol("λ", 0);
-                let written = g.text(expression(g, symbol, f));
+                let written = notation(g, expression(g, symbol, f));
                 match power {
                     1 => format!("({written})"),
                     power => format!("({written})^{power}"),
@@ -482,7 +473,7 @@ const LONGEST: usize = 24;
 
 /// An exact entry; where it is long, in decimal numbers, as a polynomial in the only symbol that occurs.
 fn shown(g: &Graph, e: Expr) -> String {
-    let exact = g.text(e);
+    let exact = notation(g, e);
     if exact.len() <= LONGEST {
         return exact;
     }
@@ -490,38 +481,47 @@ fn shown(g: &Graph, e: Expr) -> String {
         [] => g
             .evaluate_f64(&[e], &|_| None)
             .map_or(exact, |value| format!("{}", value[0])),
-        [only] => decimal_polynomial(g, e, *only).unwrap_or(exact),
+        only @ [_] => decimal_polynomial(g, e, only).unwrap_or(exact),
         _ => exact,
     }
 }
 
-/// A polynomial in a symbol with decimal coefficients; `None` where it is none.
-fn decimal_polynomial(g: &Graph, e: Expr, symbol: Symbol) -> Option<String> {
-    let degree = coefficients(g, e, symbol)?.len() - 1;
-    let mut derivative = e;
-    let (mut terms, mut factorial) = (Vec::new(), 1.0);
-    for power in 0..=degree {
-        let at_zero = g.substitute(derivative, &[(g.symbol_expr(symbol), g.zero())]);
-        let value = g.evaluate_f64(&[at_zero], &|_| None).ok()?[0] / factorial;
-        if value != 0.0 {
-            terms.push((power, value));
-        }
-        derivative = g.diff(derivative, symbol);
-        factorial *= (power + 1) as f64;
+/// The eigenvalues whose modes no input reaches, or no output shows, in numbers.
+fn unreached_text(a: &[Vec<f64>], b: &[Vec<f64>], what: &str) -> String {
+    let list = unreached(a, b).unwrap_or_default();
+    let decimals = Decimals::of(
+        list.iter()
+            .map(|own| (own.eigenvalue.re, own.eigenvalue.im)),
+    );
+    let eigenvalue = |own: &Unreached| decimals.complex((own.eigenvalue.re, own.eigenvalue.im));
+    let (whole, some): (Vec<Unreached>, Vec<Unreached>) =
+        list.into_iter().partition(|own| own.count >= own.modes);
+    let mut text = String::new();
+    if !whole.is_empty() {
+        let whole: Vec<String> = whole.iter().map(eigenvalue).collect();
+        let _ = writeln!(
+            text,
+            "  the modes with the eigenvalues {} are not {what}",
+            whole.join(", ")
+        );
     }
-    // What is left of a quotient is no polynomial.
-    let rest = g.evaluate_f64(&[derivative], &|_| Some(1.0)).ok()?[0];
-    if rest != 0.0 {
-        return None;
+    for own in &some {
+        let _ = writeln!(
+            text,
+            "  of the {} independent modes with the eigenvalue {} {} {} not {what}",
+            own.modes,
+            eigenvalue(own),
+            own.count,
+            if own.count == 1 { "is" } else { "are" }
+        );
     }
-    let name = g.symbol_text(symbol);
-    let term = |(power, value): &(usize, f64)| match power {
-        0 => real(*value, 8),
-        1 => format!("{} {name}", real(*value, 8)),
-        power => format!("{} {name}^{power}", real(*value, 8)),
-    };
-    let terms: Vec<String> = terms.iter().rev().map(term).collect();
-    Some(terms.join(" + ").replace("+ -", "- "))
+    text
+}
+
+/// The transpose of a matrix with so many columns.
+fn transposed(rows: &[Vec<f64>], columns: usize) -> Vec<Vec<f64>> {
+    let column = |c: usize| rows.iter().map(|row| row[c]).collect();
+    (0..columns).map(column).collect()
 }
 
 /// A matrix in columns.

@@ -210,6 +210,7 @@ fn copy(from: &Graph, e: Expr, to: &Graph, known: &mut BTreeMap<Expr, Expr>) -> 
         let copy = match from.node(part) {
             Node::Number(value) => to.number(value.clone()),
             Node::Pi => to.pi(),
+            Node::Algebraic(own) => to.algebraic((**own).clone()),
             Node::Symbol(symbol) => {
                 to.symbol(from.symbol_name(*symbol), from.symbol_order(*symbol))
             }

@@ -373,7 +373,7 @@ fn a_map_says_what_passes() {
         "{}",
         free.text()
     );
-    let mut kinds: Vec<&str> = free.equations.iter().map(|own| own.0).collect();
+    let mut kinds: Vec<&str> = free.equations.iter().map(|own| own.kind).collect();
     kinds.sort_unstable();
     assert_eq!(kinds, ["opposite", "zero", "zero"], "{:?}", free.equations);
     let turned = drawn(
@@ -383,10 +383,10 @@ fn a_map_says_what_passes() {
     );
     let of = |text: &str| {
         let mut all = turned.equations.iter();
-        all.find(|own| own.1 == text).map(|own| own.0)
+        all.find(|own| own.function == text).map(|own| own.kind)
     };
     assert_eq!(of("c"), Some("opposite"), "{:?}", turned.equations);
-    let passing = turned.equations.iter().filter(|own| own.0 == "pair");
+    let passing = turned.equations.iter().filter(|own| own.kind == "pair");
     assert_eq!(passing.count(), 1, "{:?}", turned.equations);
     for own in turned.curves.iter().filter(|own| own.kind == "pair") {
         for (k, c) in &own.points {

@@ -245,6 +245,7 @@ impl Writer {
             // Integers beyond 15 digits do not fit the integers of these languages.
             Formula::Integer(digits) if digits.len() > 15 => format!("{digits}.0"),
             Formula::Integer(digits) => digits.clone(),
+            Formula::Algebraic(own) => format!("({:?})", own.to_f64()),
             Formula::Pi => match self.language {
                 ArrayLanguage::Python => "np.pi".into(),
                 _ => "pi".into(),

@@ -294,6 +294,7 @@ impl Latex<'_> {
         match e {
             Formula::Integer(digits) => digits.len() as f64,
             Formula::Pi | Formula::Reference(_) => 1.0,
+            Formula::Algebraic(own) => 24.0 + self.width(&Formula::polynomial(own)),
             Formula::Symbol { name, order } => {
                 symbol(&self.name(name)) + if *order > 3 { 2.0 } else { 0.0 }
             }

@@ -3,8 +3,10 @@
 //! Its depth is bounded by [`share`](super::share), so printers may recurse on it.
 
 use crate::node::{Expr, Function};
+use crate::number::algebraic::AlgebraicInteger;
 use crate::rational::{self, Rational};
 use dashu_base::UnsignedAbs;
+use dashu_int::IBig;
 
 /// How tightly a formula holds together, from weakest to strongest.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -41,6 +43,8 @@ pub(crate) enum Formula {
     /// A non-negative integer, in decimal digits.
     Integer(String),
     Pi,
+    /// A real zero of a polynomial.
+    Algebraic(Box<AlgebraicInteger>),
     /// A name of the model or of a definition, with its number of primes.
     Symbol {
         name: String,
@@ -105,6 +109,33 @@ impl Formula {
         (rational::is_negative(value), formula)
     }
 
+    /// The polynomial of an algebraic integer, in x.
+    pub(crate) fn polynomial(own: &AlgebraicInteger) -> Formula {
+        let term = |(n, c): (usize, &IBig)| {
+            let (negative, number) = Formula::number(&Rational::from(c.clone()));
+            let x = || Formula::symbol("x");
+            let power = match n {
+                0 => {
+                    return Term {
+                        negative,
+                        value: number,
+                    }
+                }
+                1 => x(),
+                _ => Formula::Power(Box::new(x()), Box::new(Formula::integer(n))),
+            };
+            let value = if number.is_digit("1") {
+                power
+            } else {
+                Formula::Product(vec![number, power])
+            };
+            Term { negative, value }
+        };
+        let list = own.polynomial();
+        let all = list.iter().enumerate().rev();
+        Formula::Sum(all.filter(|(_, c)| **c != IBig::ZERO).map(term).collect())
+    }
+
     pub(crate) fn signed(negative: bool, value: Formula) -> Formula {
         if negative {
             Formula::Negative(Box::new(value))
@@ -162,9 +193,11 @@ impl Formula {
     pub(crate) fn is_tall(&self) -> bool {
         match self {
             Formula::Fraction(..) | Formula::Matrix { .. } => true,
-            Formula::Integer(_) | Formula::Pi | Formula::Symbol { .. } | Formula::Reference(_) => {
-                false
-            }
+            Formula::Integer(_)
+            | Formula::Pi
+            | Formula::Algebraic(_)
+            | Formula::Symbol { .. }
+            | Formula::Reference(_) => false,
             Formula::Sum(terms) => terms.iter().any(|term| term.value.is_tall()),
             Formula::Product(factors) => factors.iter().any(Formula::is_tall),
             Formula::Negative(inner)
@@ -212,7 +245,7 @@ impl Formula {
     pub(crate) fn resolve(&mut self, name: &dyn Fn(Reference) -> String) {
         match self {
             Formula::Reference(reference) => *self = Formula::symbol(&name(*reference)),
-            Formula::Integer(_) | Formula::Pi | Formula::Symbol { .. } => {}
+            Formula::Integer(_) | Formula::Pi | Formula::Algebraic(_) | Formula::Symbol { .. } => {}
             Formula::Sum(terms) => terms.iter_mut().for_each(|term| term.value.resolve(name)),
             Formula::Fraction(a, b) | Formula::Power(a, b) => {
                 a.resolve(name);

@@ -51,6 +51,10 @@ fn formula(e: &Formula) -> String {
     match e {
         Formula::Integer(digits) => digits.clone(),
         Formula::Pi => string("Pi"),
+        Formula::Algebraic(own) => call(
+            "AlgebraicRoot",
+            [formula(&Formula::polynomial(own)), own.place().to_string()],
+        ),
         Formula::Symbol { name, order: 0 } => string(name),
         Formula::Symbol { name, order } => call("Derivative", [string(name), order.to_string()]),
         Formula::Reference(_) => string("_"),

@@ -107,6 +107,11 @@ impl Latex<'_> {
         match e {
             Formula::Integer(digits) => out.push_str(digits),
             Formula::Pi => out.push_str("\\pi"),
+            Formula::Algebraic(own) => {
+                out.push_str("\\operatorname{root}(");
+                self.write(&Formula::polynomial(own), out);
+                out.push_str(&format!(", {})", own.to_f64()));
+            }
             Formula::Symbol { name, order } => self.symbol(name, *order, out),
             Formula::Reference(_) => out.push_str("\\_"),
             Formula::Sum(terms) => self.sum(terms, out),

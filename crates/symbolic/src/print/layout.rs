@@ -64,6 +64,7 @@ impl Layout<'_> {
             } => return self.product(coefficient, factors),
             Node::Power { .. } => return self.product(&Rational::ONE, &[e]),
             Node::Pi => Formula::Pi,
+            Node::Algebraic(own) => Formula::Algebraic(own.clone()),
             Node::Symbol(symbol) => Formula::Symbol {
                 name: g.symbol_name(*symbol).to_string(),
                 order: g.symbol_order(*symbol),
@@ -259,7 +260,7 @@ impl Layout<'_> {
 /// Whether a rational coefficient stands before the factors, ½ m v², and not under them, x/2 and √3 π/2.
 fn leads_with_ratio(factors: &[Formula]) -> bool {
     let constant = |f: &Formula| match f {
-        Formula::Pi => true,
+        Formula::Pi | Formula::Algebraic(_) => true,
         Formula::Root { radicand, .. } => radicand.is_integer(),
         _ => false,
     };

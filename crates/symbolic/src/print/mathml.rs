@@ -130,6 +130,14 @@ impl Mathml<'_> {
         match e {
             Formula::Integer(digits) => format!("<mn>{digits}</mn>"),
             Formula::Pi => "<mi>π</mi>".to_string(),
+            Formula::Algebraic(own) => row(&format!(
+                "<mi>root</mi>{}{}{}<mn>{}</mn>{}",
+                operator("("),
+                self.formula(&Formula::polynomial(own)),
+                operator(","),
+                own.to_f64(),
+                operator(")")
+            )),
             Formula::Symbol { name, order } => self.symbol(name, *order, None),
             Formula::Reference(_) => "<mi>_</mi>".to_string(),
             Formula::Sum(terms) => self.sum(terms),

@@ -44,7 +44,8 @@ use std::collections::BTreeMap;
 /// A language to print in.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Format {
-    /// The syntax of the model file; see [`syntax`](crate::syntax).
+    /// The syntax of the model file; see [`syntax`](crate::syntax). Algebraic numbers have none there, and are written as
+    /// `root(x^5 - x - 1, 1.167…)`.
     Text,
     /// LaTeX for mathematical mode; needs the package amsmath.
     Latex,

@@ -32,6 +32,7 @@ impl Operations {
             match formula {
                 Formula::Integer(_)
                 | Formula::Pi
+                | Formula::Algebraic(_)
                 | Formula::Symbol { .. }
                 | Formula::Reference(_) => {}
                 Formula::Sum(terms) => {

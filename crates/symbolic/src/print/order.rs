@@ -215,7 +215,7 @@ impl<'a> Order<'a> {
             _ if plan.is_named(base) && grade <= 1 => Class::Named,
             _ if plan.is_named(base) => Class::Sum,
             Node::Number(_) if self.grade(factor) == 0 => Class::Radical,
-            Node::Pi if degree.is_some() => Class::Pi,
+            Node::Pi | Node::Algebraic(_) if degree.is_some() => Class::Pi,
             _ if degree.is_none() => Class::Irrational,
             Node::Symbol(s) => {
                 key.rank = self.rank(*s);

@@ -92,7 +92,7 @@ impl Plan {
                 height = height.max(own_height);
             });
             let (size, height, nameable) = match g.node(e) {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) => (1, 0, false),
+                Node::Number(_) | Node::Pi | Node::Algebraic(_) | Node::Symbol(_) => (1, 0, false),
                 Node::Entry { .. } => (1, 0, false),
                 // Written once, in the statement of the linear system.
                 Node::Matrix { .. } | Node::Solve { .. } => {

@@ -286,6 +286,16 @@ impl Sympy {
         match e {
             Formula::Integer(digits) => digits.clone(),
             Formula::Pi => "sp.pi".to_string(),
+            // Real zeros come first there, in ascending order.
+            Formula::Algebraic(own) => {
+                let list = own.polynomial();
+                let list: Vec<String> = list.iter().rev().map(ToString::to_string).collect();
+                let list = list.join(", ");
+                format!(
+                    "sp.CRootOf(sp.Poly([{list}], sp.Dummy('x')), {})",
+                    own.place()
+                )
+            }
             Formula::Symbol { name, order: 0 } => self.name(name),
             Formula::Symbol { name, order: 1 } => format!("{}.diff(t)", self.name(name)),
             Formula::Symbol { name, order } => format!("{}.diff(t, {order})", self.name(name)),

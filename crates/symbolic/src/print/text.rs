@@ -57,6 +57,10 @@ fn write(e: &Formula, out: &mut String) {
     match e {
         Formula::Integer(digits) => out.push_str(digits),
         Formula::Pi => out.push_str("pi"),
+        Formula::Algebraic(own) => {
+            let polynomial = formula(&Formula::polynomial(own));
+            out.push_str(&format!("root({polynomial}, {})", own.to_f64()));
+        }
         Formula::Symbol { name, order } => {
             out.push_str(name);
             out.extend(std::iter::repeat_n('\'', *order as usize));

@@ -70,7 +70,7 @@ fn node_length(g: &Graph, e: Expr, known: &FxHashMap<Expr, u64>) -> u64 {
     let of = |e: &Expr| known.get(e).copied().unwrap_or(0).min(LONGEST);
     match g.node(e) {
         Node::Number(value) => number_length(value),
-        Node::Pi => 1,
+        Node::Pi | Node::Algebraic(_) => 1,
         Node::Symbol(symbol) => {
             let subscript = u64::from(g.symbol_name(*symbol).contains('_'));
             1 + subscript + u64::from(g.symbol_order(*symbol))
@@ -109,7 +109,7 @@ fn node_length(g: &Graph, e: Expr, known: &FxHashMap<Expr, u64>) -> u64 {
         Node::Power { base, exponent } => {
             let bracket = if matches!(
                 g.node(*base),
-                Node::Symbol(_) | Node::Apply { .. } | Node::Pi
+                Node::Symbol(_) | Node::Apply { .. } | Node::Pi | Node::Algebraic(_)
             ) {
                 0
             } else {

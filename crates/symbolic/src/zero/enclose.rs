@@ -81,6 +81,7 @@ impl Evaluation<'_> {
         Ok(match self.graph.node(e) {
             Node::Number(value) => precision.rational(value),
             Node::Pi => precision.pi()?,
+            Node::Algebraic(own) => own.enclose(precision)?,
             Node::Symbol(symbol) => point(*symbol)
                 .ok_or_else(|| EncloseError::Unbound(self.graph.symbol_text(*symbol)))?,
             Node::Sum { constant, terms } => {

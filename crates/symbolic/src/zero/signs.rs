@@ -171,6 +171,13 @@ impl<'g> Signs<'g> {
                 sign: SignSet::POSITIVE,
                 range: (rational::ratio(333, 106), rational::ratio(22, 7)),
             },
+            Node::Algebraic(own) => {
+                let (low, high) = own.bounds();
+                Known {
+                    sign: sign_of(low),
+                    range: (Some(low.clone()), Some(high.clone())),
+                }
+            }
             Node::Sum { constant, terms } => self.sum(constant, terms),
             Node::Product {
                 coefficient,

@@ -89,6 +89,7 @@ impl Field<'_> {
         let value = match g.node(e) {
             Node::Number(value) => RationalFunction::constant(value),
             Node::Pi | Node::Symbol(_) => self.free(e),
+            Node::Algebraic(own) => self.algebraic(e, own),
             Node::Sum { constant, terms } => {
                 let mut parts = vec![RationalFunction::constant(constant)];
                 for (term, coefficient) in terms.iter() {

@@ -3,13 +3,18 @@
 use dashu_base::Sign;
 use dashu_int::IBig;
 use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
 
 use super::super::budget::{Meter, TooLarge};
 use super::super::monomial::Monomial;
 use super::super::rational_function::RationalFunction;
 use super::super::sparse::Polynomial;
 use super::{Options, Stop};
+use crate::number::ball::Precision;
 use crate::{Expr, Graph, Node};
+
+/// Bits of the enclosures that decide signs of numbers.
+const BITS: usize = 256;
 
 /// What a generator is, as far as its relations need to know.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +40,8 @@ pub enum Kind {
     },
     /// An absolute value.
     Absolute,
+    /// A real algebraic integer: a power of it is a polynomial in it.
+    Algebraic,
 }
 
 /// A generator: the expression it stands for and its kind.
@@ -46,7 +53,7 @@ pub struct Generator {
     pub kind: Kind,
 }
 
-/// `generator^order = value`, where the value contains only generators created before.
+/// `generator^order = value`, where the value contains only generators created before, and lower powers of an algebraic integer.
 #[derive(Clone, Debug)]
 pub(super) struct Relation {
     pub(super) generator: usize,
@@ -292,7 +299,8 @@ impl<'g> Field<'g> {
     pub(super) fn reduce(&self, p: Polynomial) -> Result<Polynomial, Stop> {
         let mut p = p;
         for relation in self.relations.iter().rev() {
-            if p.degree_in(relation.generator) >= relation.order {
+            // More than once where lower powers of the generator stand in its value.
+            while p.degree_in(relation.generator) >= relation.order {
                 p = self.reduce_by(&p, relation)?;
             }
         }
@@ -428,12 +436,26 @@ impl<'g> Field<'g> {
         if self.nonnegative.contains(p) {
             return true;
         }
-        p.terms().iter().all(|(monomial, coefficient)| {
+        let shows = p.terms().iter().all(|(monomial, coefficient)| {
             coefficient.sign() == Sign::Positive
                 && monomial
                     .iter()
                     .all(|(g, e)| e % 2 == 0 || self.generator_is_nonnegative(g))
-        })
+        });
+        shows || self.number_is_nonnegative(p)
+    }
+
+    /// Whether a polynomial in algebraic integers, and other numbers, is enclosed above zero.
+    fn number_is_nonnegative(&self, p: &Polynomial) -> bool {
+        let generators = p.generators();
+        let is_algebraic = |&g: &usize| self.generators[g].kind == Kind::Algebraic;
+        let e = self.polynomial_expression(p);
+        generators.iter().any(is_algebraic)
+            && self.g.symbols_in(&[e]).is_empty()
+            && self
+                .g
+                .enclose(&[e], &Precision::new(BITS), &|_| None)
+                .is_ok_and(|found| found[0].sign() == Some(Ordering::Greater))
     }
 
     fn generator_is_nonnegative(&self, generator: usize) -> bool {

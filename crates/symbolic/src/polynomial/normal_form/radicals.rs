@@ -7,10 +7,12 @@
 use dashu_base::{Gcd, Sign};
 use dashu_int::{IBig, UBig};
 
+use super::super::monomial::Monomial;
 use super::super::rational_function::RationalFunction;
 use super::super::sparse::Polynomial;
 use super::field::{Field, Kind, Radical};
 use super::Stop;
+use crate::number::algebraic::AlgebraicInteger;
 use crate::rational::{self, Rational};
 use crate::{Expr, Node};
 
@@ -419,6 +421,21 @@ impl Field<'_> {
             },
             _ => Ok(self.free(e)),
         }
+    }
+
+    /// The generator of an algebraic integer, with its equation.
+    pub(super) fn algebraic(&mut self, e: Expr, own: &AlgebraicInteger) -> RationalFunction {
+        if let Some(generator) = self.generator_of(e) {
+            return self.generator(generator);
+        }
+        let generator = self.add_generator(e, Kind::Algebraic);
+        let mut list = own.polynomial();
+        list.truncate(own.degree());
+        let terms = list.into_iter().enumerate();
+        let terms = terms.map(|(n, c)| (Monomial::power(generator, n as u16), -c));
+        let value = Polynomial::from_terms(terms.collect());
+        self.relate(generator, own.degree() as u16, value);
+        self.generator(generator)
     }
 
     /// A free generator for an expression.

@@ -43,6 +43,13 @@ impl Writer<'_> {
                 self.helpers.pi = true;
                 Text::atom("PI")
             }
+            Node::Algebraic(own) => {
+                let value = own.to_f64();
+                signed((
+                    value < 0.0,
+                    Text::atom(format!("{:?}", value.abs())).literal(),
+                ))
+            }
             Node::Symbol(symbol) => {
                 Text::atom(self.symbols.get(symbol).cloned().unwrap_or_default())
             }

@@ -156,7 +156,11 @@ impl<'a> Locals<'a> {
         let info = &self.nodes[&e];
         let repeated = info.is_repeated || info.uses > 1;
         let (size, is_local) = match g.node(e) {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Entry { .. } => (1, false),
+            Node::Number(_)
+            | Node::Pi
+            | Node::Algebraic(_)
+            | Node::Symbol(_)
+            | Node::Entry { .. } => (1, false),
             Node::Matrix { .. } | Node::Solve { .. } => (size, true),
             Node::Product {
                 coefficient,

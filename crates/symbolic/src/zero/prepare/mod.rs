@@ -175,6 +175,8 @@ impl<'g> Builder<'g> {
         match graph.node(e) {
             Node::Number(value) => Ok(self.number(value.clone())),
             Node::Pi => Ok(self.constant_generator(e, "pi")),
+            // Its polynomial is not used: an identity that holds for all values holds for this one.
+            Node::Algebraic(_) => Ok(self.opaque(e)),
             Node::Symbol(symbol) => Ok(self.symbol(*symbol)),
             Node::Sum { constant, terms } => {
                 let values = self.values(terms.iter().map(|(term, _)| *term))?;

@@ -1,0 +1,91 @@
+//! Exact expressions in decimals: long polynomials as a person reads them, and algebraic numbers, which have no notation in models.
+
+use crate::decimals::real;
+use chetaev_symbolic::factors::coefficients;
+use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// Bits of the coefficients: exact ones may be sums that cancel.
+const BITS: usize = 256;
+/// Digits of a coefficient.
+const DIGITS: usize = 8;
+
+/// The powers of some symbols, and what they are multiplied by.
+type Term = (Vec<usize>, f64);
+
+/// A polynomial in symbols with decimal coefficients, the highest powers first; `None` where it is none.
+pub(super) fn decimal_polynomial(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<String> {
+    Some(written(g, symbols, &terms(g, e, symbols)?))
+}
+
+/// A polynomial with the same zeros, the smallest of its coefficients between 1 and 10: so all have as many digits as are printed.
+pub(super) fn same_zeros(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<String> {
+    let mut terms = terms(g, e, symbols)?;
+    let sizes = terms.iter().map(|own| own.1.abs());
+    let unit = 10_f64.powf(sizes.fold(f64::INFINITY, f64::min).log10().floor());
+    for own in &mut terms {
+        own.1 /= unit;
+    }
+    unit.is_normal().then(|| written(g, symbols, &terms))
+}
+
+fn written(g: &Graph, symbols: &[Symbol], terms: &[Term]) -> String {
+    let names: Vec<String> = symbols.iter().map(|&s| g.symbol_text(s)).collect();
+    let term = |(powers, value): &Term| {
+        let powers = names.iter().zip(powers);
+        let powers = powers.filter(|(_, power)| **power > 0);
+        let powers = powers.map(|(name, power)| match power {
+            1 => format!(" {name}"),
+            power => format!(" {name}^{power}"),
+        });
+        format!("{}{}", real(*value, DIGITS), powers.collect::<String>())
+    };
+    let terms: Vec<String> = terms.iter().map(term).collect();
+    terms.join(" + ").replace("+ -", "- ")
+}
+
+/// By Taylor's formula at zero, which is exact.
+fn terms(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<Term>> {
+    let Some((&symbol, others)) = symbols.split_first() else {
+        let found = g.enclose(&[e], &Precision::new(BITS), &|_| None).ok()?;
+        let value = found.first()?.to_f64();
+        let is_nothing = value == 0.0;
+        return Some(if is_nothing {
+            Vec::new()
+        } else {
+            vec![(Vec::new(), value)]
+        });
+    };
+    let degree = coefficients(g, e, symbol)?.len() - 1;
+    let (mut derivative, mut factorial) = (e, 1.0);
+    let mut found = Vec::new();
+    for power in 0..=degree {
+        let at_zero = g.substitute(derivative, &[(g.symbol_expr(symbol), g.zero())]);
+        for (powers, value) in terms(g, at_zero, others)? {
+            found.push(([vec![power], powers].concat(), value / factorial));
+        }
+        derivative = g.diff(derivative, symbol);
+        factorial *= (power + 1) as f64;
+    }
+    // What is left of a quotient is no polynomial.
+    let rest = g.evaluate_f64(&[derivative], &|_| Some(1.0)).ok()?[0];
+    found.reverse();
+    (rest == 0.0).then_some(found)
+}
+
+/// An expression in the notation of models, where algebraic numbers have none: these are in decimals.
+pub(super) fn notation(g: &Graph, e: Expr) -> String {
+    let rounded = || decimal_polynomial(g, e, &g.symbols_in(&[e]));
+    let value = || Some(g.evaluate_f64(&[e], &|_| None).ok()?[0].to_string());
+    let found = g.holds_algebraic(e).then(|| value().or_else(rounded));
+    found.flatten().unwrap_or_else(|| g.text(e))
+}
+
+/// Decimal bounds of a number that stands for an algebraic one; `None` for others.
+pub(super) fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {
+    if !g.holds_algebraic(e) {
+        return None;
+    }
+    let found = g.enclose(&[e], &Precision::new(BITS), &|_| None).ok()?;
+    Some(found.first()?.to_decimal_interval(20))
+}
