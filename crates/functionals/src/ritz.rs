@@ -40,6 +40,8 @@ pub enum RitzError {
     Given(String),
     /// What is added to the fields at no cost, as it is written.
     Singular {
+        /// The degree of the polynomials.
+        degree: u32,
         /// The fields that may be added: `u = 1`.
         added: String,
         /// Whether the functional does not change with them; else it changes in proportion, and nothing is stationary.
@@ -63,14 +65,17 @@ impl std::fmt::Display for RitzError {
                 f,
                 "({label}) is imposed, and the polynomials of Ritz's method do not satisfy it: they vanish where a field is given"
             ),
-            RitzError::Singular { added, is_idle: true } => write!(
+            RitzError::Singular {
+                degree,
+                added,
+                is_idle: true,
+            } => write!(
                 f,
-                "the functional does not change when {added} is added, so that no polynomial is the only stationary one: more has to be held on the \
-                 faces"
+                "no polynomial of degree {degree} is the only stationary one: the functional of these does not change when {added} is added"
             ),
-            RitzError::Singular { added, is_idle: false } => write!(
+            RitzError::Singular { degree, added, is_idle: false } => write!(
                 f,
-                "no polynomial is stationary: the functional changes in proportion to c when c times {added} is added"
+                "no polynomial of degree {degree} is stationary: the functional of these changes in proportion to c when c times {added} is added"
             ),
         }
     }
@@ -122,7 +127,7 @@ pub fn approximation(
     let right = system.right.clone();
     let solved = system
         .solution()
-        .map_err(|added| singular(space, &base.fields(&added), (&added, &right)))?;
+        .map_err(|added| singular((space, degree), &base.fields(&added), (&added, &right)))?;
     // At a stationary point of a quadratic function: the constant and half of the linear part.
     let mut value = Rational::ZERO;
     for part in &parts {
@@ -142,7 +147,7 @@ pub fn approximation(
 
 /// What may be added; the quadratic part has none of it.
 fn singular(
-    space: &Space,
+    (space, degree): (&Space, u32),
     fields: &[(usize, Polynomial)],
     (added, right): (&[Rational], &[Rational]),
 ) -> RitzError {
@@ -157,6 +162,7 @@ fn singular(
         (!space.graph.is_zero(e)).then(|| format!("{name} = {}", space.graph.text(e)))
     });
     RitzError::Singular {
+        degree,
         added: written.collect::<Vec<_>>().join(", "),
         is_idle: change == Rational::ZERO,
     }

@@ -266,6 +266,16 @@ impl<'a> Expansion<'a> {
             .filter(|(_, rate)| !is_proved_zero(self.system, *rate));
         match moving.next() {
             None => Ok(()),
+            // A number that is zero, and is not seen to be.
+            Some((name, rate))
+                if enclosure(g, rate).is_none() && g.symbols_in(&[rate]).is_empty() =>
+            {
+                Err(LinearizationError::Open {
+                    motion: self.motion.name.clone(),
+                    quantity: name.clone(),
+                    rate: g.text(rate),
+                })
+            }
             Some((name, rate)) => Err(LinearizationError::NotSteady {
                 motion: self.motion.name.clone(),
                 quantity: name.clone(),

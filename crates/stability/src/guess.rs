@@ -5,7 +5,7 @@
 //! motion is meant if there is another.
 
 use crate::problem::LinearizationError;
-use crate::steady_set::{with_given, Found, SteadySet};
+use crate::steady_set::{with_given, Found, SteadySet, Value};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::{Expr, Symbol};
 use std::borrow::Cow;
@@ -46,7 +46,15 @@ pub fn near<'m>(
     };
     let nearest = set.found.iter().filter_map(member);
     let nearest = nearest.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    if let Some((_, _, found)) = nearest {
+    if let Some((_, distance, found)) = nearest {
+        // One without an exact form is at least as far as those of its variables that are enclosed.
+        let enclosed = set.found.iter().filter(|own| own.motion.is_none());
+        let mut enclosed = enclosed.map(|own| asked.least_distance(&set, own));
+        if enclosed.any(|least| least <= distance) {
+            return Err(not_found(
+                "one without an exact form is as near, or nearer".into(),
+            ));
+        }
         return Ok(Cow::Owned(found));
     }
     let are_all_compared = set.found.iter().all(|own| own.motion.is_some());
@@ -107,6 +115,34 @@ impl Asked<'_> {
         let positions = positions.filter_map(|(c, q)| Some((c.q, (*q)?)));
         let velocities = velocities.map(|(c, v)| (c.v, v.unwrap_or(zero)));
         positions.chain(velocities).collect()
+    }
+
+    /// A lower bound of the square of the distance of a motion from the guesses, by the variables that are enclosed.
+    fn least_distance(&self, set: &SteadySet, own: &Found) -> f64 {
+        let stated = self.stated();
+        let mut least = 0.0;
+        for (name, value) in set.variables.iter().zip(&own.values) {
+            let coordinates = self.system.coordinates.iter().enumerate();
+            let guessed = coordinates.flat_map(|(j, c)| [((j, 0), c.q), ((j, 1), c.v)]);
+            let mut guessed = guessed.filter(|(place, _)| self.motion.guesses.contains(place));
+            let speed = set.speeds.iter().find(|(speed, _)| speed == name);
+            let is_variable = |e: Expr| {
+                let is_named = self.system.graph.text(e) == *name;
+                is_named || speed.is_some_and(|own| own.1 == e)
+            };
+            let Value::Number { ball, .. } = value else {
+                continue;
+            };
+            let Some((_, e)) = guessed.find(|&(_, e)| is_variable(e)) else {
+                continue;
+            };
+            let guess = stated.iter().find(|own| own.0 == e);
+            if let Some(guess) = guess.and_then(|own| self.number(own.1)) {
+                let apart = ball.to_f64() - guess;
+                least += apart * apart * (1.0 - SAME);
+            }
+        }
+        least
     }
 
     /// The motion with the values of a steady motion, or of the member of a family that has the stated values for its free parameters, and the

@@ -76,6 +76,16 @@ pub enum LinearizationError {
         /// What has it.
         corner: String,
     },
+    /// Something may change that should be constant.
+    #[error("whether the motion `{motion}` is steady was not decided: {quantity} has the rate {rate}, which was neither proved to vanish nor enclosed apart from zero")]
+    Open {
+        /// The motion.
+        motion: String,
+        /// A coordinate or a quasi-velocity.
+        quantity: String,
+        /// Its rate.
+        rate: String,
+    },
     /// Something changes that should be constant.
     #[error("the motion `{motion}` is not steady: {quantity} has the rate {rate}")]
     NotSteady {

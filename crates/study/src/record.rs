@@ -96,6 +96,9 @@ pub struct ConditionRecord {
     pub of: String,
     /// The expression.
     pub zero: String,
+    /// Where it is known to vanish; everywhere, if nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub only_where: Option<String>,
 }
 
 /// The texts of the model.

@@ -146,6 +146,7 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
         // It may be steady at the values of the model alone.
         Ok(Err(StabilityError::Linearization(
             problem @ (LinearizationError::NotSteady { .. }
+            | LinearizationError::Open { .. }
             | LinearizationError::NotAdmissible { .. }),
         ))) => in_numbers(model, system, wanted, Numbers::SteadyThere).map_err(|_| problem.into()),
         Ok(found) => found,

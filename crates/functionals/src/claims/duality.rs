@@ -1,7 +1,7 @@
 //! `functional.duality`: two functionals add up to a divergence, and to nothing with their boundary terms.
 
 use super::flux;
-use super::modulo::{equations, labels, other_body, vanishing, vanishing_difference, STATED};
+use super::modulo::{among, equations, other_body, vanishing, vanishing_difference, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::Group;
 use crate::functional::{Functional, Relation, Role, Side};
@@ -166,13 +166,14 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
     let mut all = match vanishing(functional, &[g.add(&terms)], &imposed) {
         Ok((proof, needed)) => {
             if !needed.is_empty() {
-                notes.push(format!("in the interior modulo {}", labels(&needed)));
+                notes.push(format!("in the interior modulo {needed}"));
             }
             Verdict::Proved(proof)
         }
         Err(verdict) => {
             let what = format!("the sum of the densities is not the divergence of {written}");
-            return (*verdict).prefixed(&what).into();
+            let verdict = among(functional, &[g.add(&terms)], &imposed, *verdict);
+            return verdict.prefixed(&what).into();
         }
     };
     let mut formulas = Vec::new();
@@ -208,7 +209,10 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
                     "on {} the flux and the boundary densities do not cancel",
                     piece.name
                 );
-                let verdict = not_cancelled(space, flux, sum, *verdict);
+                let imposed = |own| equations(own, Some(&piece.name), &[Role::Imposed]);
+                let held = together(imposed(functional), imposed(other));
+                let verdict = among(functional, &[sum], &held, *verdict);
+                let verdict = not_cancelled(space, flux, sum, verdict);
                 let verdict = match verdict {
                     Verdict::Refuted(_) if flux::leaves_edges_only(space, &piece.side, sum) => {
                         Verdict::undecided("their sum is a divergence along it, and what that leaves where faces meet was not compared")
@@ -288,7 +292,7 @@ fn on_piece(
     let inside = together(together(inside, own), of_dual);
     match vanishing(functional, &[sum], &inside) {
         Ok((proof, needed)) if needed.is_empty() => Ok((proof, None)),
-        Ok((proof, needed)) => Ok((proof, Some(format!("modulo {}", labels(&needed))))),
+        Ok((proof, needed)) => Ok((proof, Some(format!("modulo {needed}")))),
         Err(_) => {
             let own = equations(functional, Some(piece), STATED);
             let all = together(own, equations(other, Some(piece), STATED));

@@ -1,6 +1,6 @@
 //! Modulo which stated equations something vanishes: the fewest are named.
 
-use crate::elimination::{Group, Solved};
+use crate::elimination::{Entries, Group, Solved};
 use crate::functional::{Functional, Role};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -33,12 +33,78 @@ pub(super) fn equations(functional: &Functional, on: Option<&str>, roles: &[Role
         .collect()
 }
 
-/// A proof that expressions vanish modulo the fewest of the equations, with their labels; else the verdict without any.
+/// Equations that were needed, and where they say what was needed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Needed {
+    /// The labels of the equations.
+    labels: Vec<String>,
+    /// What must be so that they can be solved: `E ≠ 0`.
+    conditions: Vec<String>,
+}
+
+impl Needed {
+    /// Whether nothing was needed.
+    pub(super) fn is_empty(&self) -> bool {
+        self.labels.is_empty()
+    }
+
+    fn of(solved: &Solved<'_>, groups: Vec<Group>) -> Needed {
+        let g = &solved.space.graph;
+        let nonzero = solved.nonzero.iter();
+        let mut conditions: Vec<String> = nonzero.map(|&e| format!("{} ≠ 0", g.text(e))).collect();
+        let pivots = solved.pivots.iter();
+        // Cases in which fields or data vanish were looked at, and the normal does not vanish.
+        let open = pivots.filter(|own| !matches!(own.entries, Entries::Fields | Entries::Normal));
+        conditions.extend(open.map(|own| own.said().trim_start_matches(", where ").to_owned()));
+        Needed {
+            labels: groups.into_iter().map(|group| group.label).collect(),
+            conditions,
+        }
+    }
+}
+
+/// `(3) and (4) where E ≠ 0`.
+impl std::fmt::Display for Needed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&labels(&self.labels))?;
+        match &self.conditions[..] {
+            [] => Ok(()),
+            some => write!(f, " where {}", some.join(" and ")),
+        }
+    }
+}
+
+/// A refutation of what is said of fields that satisfy equations: one by other fields refutes nothing.
+pub(super) fn among(
+    functional: &Functional,
+    es: &[Expr],
+    held: &[Group],
+    verdict: Verdict,
+) -> Verdict {
+    if held.is_empty() || !matches!(verdict, Verdict::Refuted(_)) {
+        return verdict;
+    }
+    let solved = Solved::new(&functional.space).with(held);
+    let refuted = es.iter().map(|&e| solved.verdict(e));
+    let mut refuted = refuted.filter(|own| matches!(own, Verdict::Refuted(_)));
+    match (solved.left.is_empty(), refuted.next()) {
+        (true, Some(own)) => own,
+        _ => {
+            let all: Vec<String> = held.iter().map(|group| group.label.clone()).collect();
+            let labels = labels(&all);
+            Verdict::undecided(format!(
+                "no fields were found that satisfy {labels} and for which it is false"
+            ))
+        }
+    }
+}
+
+/// A proof that expressions vanish modulo the fewest of the equations, with these; else the verdict without any.
 pub(super) fn vanishing(
     functional: &Functional,
     es: &[Expr],
     available: &[Group],
-) -> Result<(Proof, Vec<String>), Box<Verdict>> {
+) -> Result<(Proof, Needed), Box<Verdict>> {
     let space = &*functional.space;
     let nothing = Solved::new(space);
     let mut verdict = Verdict::Proved(Proof::exact("", ""));
@@ -46,7 +112,7 @@ pub(super) fn vanishing(
         verdict = verdict.and(nothing.verdict(e));
     }
     if let Verdict::Proved(proof) = verdict {
-        return Ok((proof, Vec::new()));
+        return Ok((proof, Needed::default()));
     }
     for count in 1..=available.len() {
         for chosen in subsets(available.len(), count) {
@@ -60,7 +126,7 @@ pub(super) fn vanishing(
                 verdict = verdict.and(solved.verdict(e));
             }
             if let Verdict::Proved(proof) = verdict {
-                return Ok((proof, groups.into_iter().map(|g| g.label).collect()));
+                return Ok((proof, Needed::of(&solved, groups)));
             }
         }
     }
@@ -79,7 +145,7 @@ pub(super) fn vanishing_difference(
     let refused = match vanishing(functional, &[difference], imposed) {
         Ok((proof, needed)) if needed.is_empty() => return Ok((proof, None)),
         Ok((proof, needed)) => {
-            let note = format!("modulo {}, which is imposed", labels(&needed));
+            let note = format!("modulo {needed}, which is imposed");
             return Ok((proof, Some(note)));
         }
         Err(verdict) => verdict,
@@ -94,11 +160,7 @@ pub(super) fn vanishing_difference(
     let value = vanishing(functional, &[difference], stated);
     match (value, vanishing(functional, &slopes, stated)) {
         (Ok((one, of_value)), Ok((other, of_slopes))) => {
-            let note = format!(
-                "modulo {}, of second order with {}",
-                labels(&of_value),
-                labels(&of_slopes)
-            );
+            let note = format!("modulo {of_value}, of second order with {of_slopes}");
             let both = Verdict::Proved(one).and(Verdict::Proved(other));
             match both {
                 Verdict::Proved(proof) => Ok((proof, Some(note))),

@@ -1,7 +1,7 @@
 //! `functional.multipliers`: the level above follows by Lagrange multipliers that become fields, and by the semi-inverse method.
 
 use super::descent::descended;
-use super::modulo::{equations, labels, vanishing, STATED};
+use super::modulo::{self, equations, labels, vanishing, STATED};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Equation, Field, Functional, Relation, Release};
@@ -186,13 +186,13 @@ impl Way<'_> {
         Ok(format!(
             "the Euler equation of {} determines it{}",
             fields.join(" and "),
-            modulo(&needed)
+            clause(&needed)
         ))
     }
 
     /// Courant's rule: the variation of the new fields in `released + λ (X − Φ)`, with λ held, gives the multiplier; where nothing was
     /// dropped, that of the fields in the equation. The fewest equations of the level above that are needed are named.
-    fn determined(&self, density: Expr) -> Step<(Vec<String>, Vec<String>)> {
+    fn determined(&self, density: Expr) -> Step<(Vec<String>, modulo::Needed)> {
         let space = &*self.above.space;
         let jets = space.jets_in(&self.equation.residuals);
         let occurs = |field: &&Field| {
@@ -258,7 +258,7 @@ impl Way<'_> {
         Ok(format!(
             "the natural condition of {} on {name} determines it{}",
             fields.join(" and "),
-            modulo(&needed)
+            clause(&needed)
         ))
     }
 
@@ -300,7 +300,7 @@ impl Way<'_> {
             let found = vanishing(above, &euler, &equations(above, None, STATED));
             let needed = match found {
                 Ok((_, needed)) if needed.is_empty() => Needed::Nothing,
-                Ok((_, needed)) => Needed::Stated(labels(&needed)),
+                Ok((_, needed)) => Needed::Stated(needed.to_string()),
                 // What is stated decides nothing here: the equation holds where the functional is stationary.
                 Err(verdict) if matches!(*verdict, Verdict::Refuted(_)) => Needed::Own,
                 Err(verdict) => {
@@ -348,10 +348,11 @@ impl Way<'_> {
 }
 
 /// `, modulo (3)`.
-fn modulo(needed: &[String]) -> String {
-    match needed {
-        [] => String::new(),
-        some => format!(", modulo {}", labels(some)),
+fn clause(needed: &modulo::Needed) -> String {
+    if needed.is_empty() {
+        String::new()
+    } else {
+        format!(", modulo {needed}")
     }
 }
 

@@ -1,9 +1,9 @@
 //! `functional.ritz`: Ritz's method gives the closed solution, or comes near to it.
 
-use super::special_values::unfit;
+use super::special_values::{unfit, violated};
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Special, SpecialKind};
-use crate::ritz::{approximation, with_values, Approximation, Asked, Point};
+use crate::ritz::{approximation, with_values, Approximation, Asked, Point, RitzError};
 use crate::variation::Variation;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::{rational, Expr, Rational, Verdict};
@@ -50,20 +50,19 @@ impl Claim for Ritz {
         if let Some(unfit) = unfit(cx.functional(), &[special], &cx.functional().intervals) {
             return unfit.into();
         }
-        let mut all = Vec::new();
+        let (mut all, mut singular) = (Vec::new(), None);
         for &degree in &asked.degrees {
             match approximation(cx.functional(), asked, degree) {
                 Ok(own) => all.push(own),
+                // Of another degree there may be one stationary polynomial.
+                Err(problem @ RitzError::Singular { .. }) => singular = Some(problem),
                 Err(problem) => return Verdict::undecided(problem.to_string()).into(),
             }
         }
         let Some(last) = all.last() else {
-            return Verdict::undecided("no degree is asked for").into();
+            let said = singular.map_or("no degree is asked for".to_owned(), |own| own.to_string());
+            return Verdict::undecided(said).into();
         };
-        let found = with_fields(cx.functional(), asked, last);
-        if let Some(unfit) = unfit(cx.functional(), &[found], &cx.functional().intervals) {
-            return unfit.into();
-        }
         let verdict = verdict(cx.functional(), variation, asked, &all, last);
         let formulas = formulas(cx.functional(), last);
         cx.approximations.replace(all);
@@ -138,7 +137,20 @@ fn verdict(
         "no minimum"
     };
     let exact = residuals(functional, variation, asked, last);
-    if exact.iter().all(|&e| space.vanish(&[e])) {
+    let is_exact = exact.iter().all(|&e| space.vanish(&[e]));
+    let found = with_fields(functional, asked, last);
+    if let Some(violated) = violated(functional, &[found], &functional.intervals) {
+        let degree = last.degree;
+        return if is_exact {
+            let said = format!("the polynomial of degree {degree} is the solution, and violates what the model assumes, {violated}");
+            Verdict::not_applicable("assumptions", said)
+        } else {
+            Verdict::undecided(format!(
+                "the polynomial of degree {degree} violates what the model assumes, {violated}, which the solution need not: another degree may come nearer"
+            ))
+        };
+    }
+    if is_exact {
         let mut stated = asked.points.iter();
         if let Some(found) = stated.find_map(|point| otherwise(point, last)) {
             return Verdict::Refuted(found);

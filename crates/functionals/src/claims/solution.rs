@@ -82,12 +82,16 @@ impl<'f> Inserted<'f> {
         };
         let reduced = reduced(functional);
         match crate::variation::variation(&reduced) {
-            Ok(own) if restricted(&reduced, &own).is_none() => inserted.verdict(&own),
-            _ => inserted.verdict(variation),
+            Ok(own) => match restricted(&reduced, &own) {
+                None => inserted.verdict(&own, None),
+                some => inserted.verdict(variation, some.as_deref()),
+            },
+            Err(_) => inserted.verdict(variation, None),
         }
     }
 
-    fn verdict(&self, variation: &Variation) -> Verdict {
+    /// The verdict by the equations of a variation that is free, or restricted for the reason that is given.
+    fn verdict(&self, variation: &Variation, restricted: Option<&str>) -> Verdict {
         let space = &*self.functional.space;
         if let Some(piece) = self.unplaced(variation) {
             return Verdict::undecided(format!(
@@ -105,17 +109,16 @@ impl<'f> Inserted<'f> {
                 "{what} was not shown to be smooth on the body: {where_rough}, and where it is not, the equations say nothing"
             ));
         }
-        let inside = self.inside();
-        for (what, e) in self.residuals(variation) {
-            match space.vanishing_under(&[e], true, &inside) {
-                Verdict::Proved(_) => {}
-                other => {
-                    let values = &self.solution.values;
-                    let other = where_settled(self.functional, values, &[e], other);
-                    return other.prefixed(&format!("{what} does not hold for the stated fields"));
-                }
-            }
+        if let Err(verdict) = self.hold(self.imposed()) {
+            return *verdict;
         }
+        if let Err(verdict) = self.hold(self.residuals(variation)) {
+            return match restricted {
+                Some(why) => self.of_restricted(why),
+                None => *verdict,
+            };
+        }
+        let inside = self.inside();
         let mut told = vec![
             "the stated fields satisfy what is imposed, every Euler equation and every natural condition"
                 .to_owned(),
@@ -142,6 +145,37 @@ impl<'f> Inserted<'f> {
             }
         }
         Verdict::Proved(Proof::exact("the stated fields", told.join("; ")))
+    }
+
+    /// Whether all of these vanish at the stated fields.
+    fn hold(&self, residuals: Vec<(String, Expr)>) -> Result<(), Box<Verdict>> {
+        let inside = self.inside();
+        for (what, e) in residuals {
+            match self.functional.space.vanishing_under(&[e], true, &inside) {
+                Verdict::Proved(_) => {}
+                other => {
+                    let values = &self.solution.values;
+                    let other = where_settled(self.functional, values, &[e], other);
+                    let what = format!("{what} does not hold for the stated fields");
+                    return Err(Box::new(other.prefixed(&what)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Where fewer variations are admitted than those from which the Euler equations follow, the fields may be stationary though these do not hold: an
+    /// admissible variation with a first variation that is not zero refutes.
+    fn of_restricted(&self, why: &str) -> Verdict {
+        let space = &*self.functional.space;
+        let varied = (space.coordinates.len() == 1).then(|| self.varied());
+        match varied {
+            Some(Err(verdict)) if matches!(*verdict, Verdict::Refuted(_)) => *verdict,
+            _ => Verdict::undecided(format!(
+                "{why}; not all Euler equations and natural conditions hold for the stated fields, and whether the first variation vanishes for the variations that are \
+                 admitted was not decided"
+            )),
+        }
     }
 
     /// Places inside of the box of the solution.
@@ -315,9 +349,8 @@ impl<'f> Inserted<'f> {
         places.into_iter().filter_map(at).collect()
     }
 
-    /// What must vanish.
-    fn residuals(&self, variation: &Variation) -> Vec<(String, Expr)> {
-        let space = &*self.functional.space;
+    /// What vanishes by what is imposed.
+    fn imposed(&self) -> Vec<(String, Expr)> {
         let mut found = Vec::new();
         for equation in self.functional.with_role(Role::Imposed) {
             let what = format!("the imposed equation ({})", equation.label);
@@ -332,6 +365,13 @@ impl<'f> Inserted<'f> {
                 found.extend(own.into_iter().map(|e| (what.clone(), e)));
             }
         }
+        found
+    }
+
+    /// What vanishes by the Euler equations and the natural conditions.
+    fn residuals(&self, variation: &Variation) -> Vec<(String, Expr)> {
+        let space = &*self.functional.space;
+        let mut found = Vec::new();
         for &(component, value) in &variation.euler {
             let name = space.component_at(component).name;
             found.push((format!("the Euler equation of {name}"), self.at(value)));

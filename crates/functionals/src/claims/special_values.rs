@@ -44,7 +44,11 @@ pub(super) fn unfit(
 }
 
 /// Something that the model assumes and that is false for special values, somewhere on a box with its boundary.
-fn violated(functional: &Functional, values: &[Special], intervals: &[Interval]) -> Option<String> {
+pub(super) fn violated(
+    functional: &Functional,
+    values: &[Special],
+    intervals: &[Interval],
+) -> Option<String> {
     let space = &*functional.space;
     let g = &space.graph;
     // So many at most stand between a value and what it needs.

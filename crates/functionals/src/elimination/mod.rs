@@ -30,6 +30,7 @@ mod strata;
 
 pub(crate) use self::consequences::factors_of;
 
+pub(crate) use self::rank::choices;
 use self::ranking::Ranking;
 use self::strata::{Face, Stratum};
 use crate::functional::Side;
@@ -82,7 +83,7 @@ impl Open {
 /// Equations solved as far as possible.
 #[derive(Clone, Debug)]
 pub struct Solved<'s> {
-    space: &'s Space,
+    pub(crate) space: &'s Space,
     rules: Vec<Rule>,
     adopted: Vec<Adopted>,
     /// The faces on which equations hold.

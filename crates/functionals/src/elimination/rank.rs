@@ -174,6 +174,18 @@ impl Solved<'_> {
         })
     }
 
+    /// The factors of an expression that may vanish, as far as is known.
+    pub(crate) fn open_factors(&self, e: Expr) -> Vec<Expr> {
+        let g = &self.space.graph;
+        let mut found = self.factors(e);
+        found.retain(|&factor| {
+            g.as_number(factor).is_none()
+                && !self.space.sign(factor).is_nonzero()
+                && !self.is_assumed(factor)
+        });
+        found
+    }
+
     /// Whether functions of fields without a formula occur.
     pub(super) fn has_functions(&self, es: &[Expr]) -> bool {
         let explicit: Vec<Expr> = es.iter().map(|&e| self.space.explicit(e)).collect();
@@ -203,7 +215,7 @@ impl Solved<'_> {
 }
 
 /// All ways to take so many of n rows, in order.
-fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
+pub(crate) fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
     let mut found = vec![Vec::new()];
     for _ in 0..count {
         let longer = |own: &Vec<usize>| {

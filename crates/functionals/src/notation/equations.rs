@@ -6,7 +6,8 @@
 //! whole where its coefficient vanishes identically. Multipliers of imposed equations are varied by nothing, and put in at the end.
 
 use super::canonical::{collected, sum_of};
-use super::terms::{renamed, times, Calculus, Linear, Term};
+use super::freedom::{Freedom, Varied};
+use super::terms::{letters, renamed, times, Calculus, Linear, Occurrence, Term};
 use super::{free_letters, parse, parse_sides, Atom, Index, Kind, Node};
 use crate::functional::{Equation, Field, Functional, Piece, Role};
 use crate::read::on_side;
@@ -24,6 +25,8 @@ pub struct Indexed {
     pub of: String,
     /// The coefficient.
     pub value: Node,
+    /// Whether it is known to vanish only where its variation takes all values, as that of a traction of which a matrix of moduli decides.
+    pub is_in_general: bool,
 }
 
 /// The densities with the terms of multipliers, in the names of the functional and of its multipliers.
@@ -237,6 +240,7 @@ fn equation(
     all.then(|| Indexed {
         of: name_of(&field.name, &free),
         value,
+        is_in_general: false,
     })
 }
 
@@ -289,13 +293,43 @@ fn coefficient(
     }
 }
 
+/// The same with letters that are made, so that those which a density is written with are none of the free ones.
+fn apart(calculus: &Calculus<'_>, term: Term, mut own: Occurrence) -> (Term, Occurrence) {
+    let mut all = Vec::new();
+    for factor in &term.factors {
+        letters(factor, &mut all);
+    }
+    let of_variation = own.indices.iter().chain(&own.derivatives);
+    all.extend(of_variation.filter_map(|index| match index {
+        Index::Letter(letter) => Some(*letter),
+        Index::Place(_) => None,
+    }));
+    all.sort_unstable();
+    all.dedup();
+    let pairs: Vec<(char, char)> = all.into_iter().map(|l| (l, calculus.fresh())).collect();
+    for index in own.indices.iter_mut().chain(&mut own.derivatives) {
+        if let Index::Letter(letter) = index {
+            if let Some((_, made)) = pairs.iter().find(|(known, _)| known == letter) {
+                *letter = *made;
+            }
+        }
+    }
+    let factors = term
+        .factors
+        .iter()
+        .map(|own| renamed(own, &pairs))
+        .collect();
+    let number = term.number;
+    (Term { number, factors }, own)
+}
+
 /// `(−1)^m coefficient` by α, for `Σ (−1)^m (coefficient),α`: derivatives are moved off the variation.
 fn moved(calculus: &Calculus<'_>, linear: Linear, free: &[char]) -> Option<Groups> {
     let mut groups = Groups::new();
     let canonical: Vec<char> = (0..2).map(|_| calculus.fresh()).collect();
     for (term, occurrence) in linear {
         let mut pairs: Vec<(char, char)> = Vec::new();
-        let mut term = term;
+        let (mut term, occurrence) = apart(calculus, term, occurrence);
         bind(&mut term, &occurrence.indices, free, &mut pairs)?;
         let mut key = Vec::new();
         for (at, index) in occurrence.derivatives.iter().enumerate() {
@@ -631,6 +665,8 @@ fn conditions_on(
         None => Vec::new(),
     };
     let mut found = Vec::new();
+    // What is shown, and has to be varied independently.
+    let (mut wholes, mut shown) = (Vec::new(), Vec::new());
     let mut coefficients: Vec<(String, Shape, Vec<Expr>)> = Vec::new();
     for name in &tractions {
         let (letters, _) = scope.definitions.get(name)?;
@@ -651,10 +687,12 @@ fn conditions_on(
             scope.space.graph.is_zero(e) || scope.space.vanish(&[e])
         });
         if !vanishes {
+            wholes.extend(&scope.tensors.get(name)?.components);
             found.extend(indexed);
         }
         coefficients.push((name.clone(), shape, own));
     }
+    let tractions = found.len();
     let here = functional
         .fields
         .iter()
@@ -691,11 +729,22 @@ fn conditions_on(
             scope.space.graph.is_zero(e) || scope.space.vanish(&[e])
         });
         if !is_fixed && !vanishes {
+            shown.extend(field.components.iter().filter(|_| field.on.is_none()));
             found.extend(indexed);
         }
         coefficients.push((field.name.clone(), field.shape, own));
     }
-    is_first_variation(functional, piece, scope, &coefficients).then_some(found)
+    if !is_first_variation(functional, piece, scope, &coefficients) {
+        return None;
+    }
+    match Varied::new(functional, piece, &wholes, shown).freedom() {
+        Freedom::Everywhere => {}
+        Freedom::InGeneral => found[..tractions]
+            .iter_mut()
+            .for_each(|own| own.is_in_general = true),
+        Freedom::Unknown => return None,
+    }
+    Some(found)
 }
 
 /// A traction that is the normal times a stress, which may stand in the density with a derivative.
@@ -837,7 +886,12 @@ fn condition(
     let value = coefficient(calculus, linear, shape, (&free, scope))?;
     let own = components(scope, &value, shape, &free);
     let of = name_of(name, &free);
-    Some(((!is_empty).then_some(Indexed { of, value }), own))
+    let indexed = Indexed {
+        of,
+        value,
+        is_in_general: false,
+    };
+    Some(((!is_empty).then_some(indexed), own))
 }
 
 /// Definitions in the density of a piece that contain the normal and a field that is varied.

@@ -7,6 +7,7 @@
 mod apart;
 mod canonical;
 pub mod equations;
+mod freedom;
 mod indices;
 mod parse;
 mod print;

@@ -195,7 +195,9 @@ fn what_is_found_by_ritz_is_as_assumed_on_the_body_and_its_boundary() {
         );
         let study = studied_text("p4p", &text, &[]);
         let verdict = decided(&study, "functional.ritz");
-        let refused = verdict.detail().contains("violate what the model assumes");
+        let refused = verdict
+            .detail()
+            .contains("is the solution, and violates what the model assumes");
         assert_eq!(
             refused,
             verdict.word() == "not-applicable",

@@ -112,13 +112,13 @@ fn slopes_are_given_without_the_values() {
     // Guided at both ends and held nowhere: the load has a mean, and nothing carries it.
     let (word, detail) = told(&text([guided, guided], ""));
     assert_eq!(word, "undecided", "{detail}");
-    let said = "the functional changes in proportion to c when c times w = 1 is added";
+    let said = "no polynomial of degree 3 is stationary: the functional of these changes in proportion to c when c times w = 1 is added";
     assert!(detail.contains(said), "{detail}");
     // A load without a mean does no work on w = 1.
     let balanced = text([guided, guided], "").replace("(360 x - 264)", "(360 x - 180)");
     let (word, detail) = told(&balanced);
     assert_eq!(word, "undecided", "{detail}");
-    let said = "the functional does not change when w = 1 is added";
+    let said = "no polynomial of degree 3 is the only stationary one: the functional of these does not change when w = 1 is added";
     assert!(detail.contains(said), "{detail}");
 }
 

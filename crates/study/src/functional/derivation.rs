@@ -56,6 +56,9 @@ impl Part {
         for own in &self.indexed {
             let line = written_equation(&own.value, &functional.scope, format);
             out.push_str(&labelled(&own.of, &line, format));
+            if let Some(only_where) = &own.only_where {
+                out.push_str(&marked(only_where, format));
+            }
         }
         if !self.indexed.is_empty() && !self.shown.is_empty() {
             out.push_str(&marked("in components", format));
@@ -237,7 +240,7 @@ fn as_json(functional: &Functional, parts: &[Part]) -> String {
                 .map(|own| {
                     let text = written_equation(&own.value, &functional.scope, Format::Text);
                     let latex = latex_of(functional, own);
-                    serde_json::json!({"of": own.of, "equation": text, "latex": latex})
+                    serde_json::json!({"of": own.of, "equation": text, "latex": latex, "where": own.only_where})
                 })
                 .collect();
             let shown: Vec<_> = part

@@ -22,6 +22,8 @@ pub(super) struct Indexed {
     pub(super) of: String,
     /// What vanishes.
     pub(super) value: Node,
+    /// Where it is known to.
+    pub(super) only_where: Option<String>,
 }
 
 /// The Euler equations in index notation, of the fields for which there is a form; without those that vanish identically.
@@ -116,9 +118,11 @@ pub(super) fn indexed_natural(functional: &Functional, piece: &str) -> Option<Ve
 }
 
 fn shown_indexed(own: equations::Indexed) -> Indexed {
+    let only_where = format!("where δ{} takes all values", own.of);
     Indexed {
         of: format!("δ{}", own.of),
         value: own.value,
+        only_where: own.is_in_general.then_some(only_where),
     }
 }
 

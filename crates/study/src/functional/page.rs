@@ -191,10 +191,14 @@ fn indexed(
         },
         ..Equation::default()
     });
+    let only_where = all.iter().filter_map(|own| own.only_where.as_ref());
+    let only_where = only_where.map(|text| format!("The equation of it holds {text}."));
     EquationSection {
         id: id.into(),
         title: title.into(),
-        explanation: vec![explanation.into()],
+        explanation: std::iter::once(explanation.into())
+            .chain(only_where)
+            .collect(),
         equations: equations.collect(),
         is_unnumbered: true,
         ..EquationSection::default()

@@ -95,6 +95,7 @@ fn in_indices(functional: &Functional, on: Option<&str>, shown: &Indexed) -> Con
         on: on.map(str::to_owned),
         of: shown.of.clone(),
         zero: written(&shown.value, &functional.scope, Format::Text),
+        only_where: shown.only_where.clone(),
     }
 }
 
@@ -103,5 +104,6 @@ fn condition(g: &Graph, on: Option<&str>, shown: &Shown) -> ConditionRecord {
         on: on.map(str::to_owned),
         of: shown.of.clone(),
         zero: g.text(shown.value),
+        only_where: None,
     }
 }

@@ -89,6 +89,9 @@ fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) 
     for own in indexed {
         let line = written_equation(&own.value, &f.scope, Format::Text);
         text.push_str(&terms(&format!("    {:<12} ", own.of), &line));
+        if let Some(only_where) = &own.only_where {
+            let _ = writeln!(text, "{:17}{only_where}", "");
+        }
     }
     let longest = shown.iter().map(|own| simplify::length(g, own.value));
     let longest = longest.max().unwrap_or(0);
