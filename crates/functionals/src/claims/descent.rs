@@ -1,7 +1,7 @@
 //! `functional.descent`: a level follows from the one above by imposing one more group of equations.
 
 use super::degeneration::Comparison;
-use super::modulo::labels;
+use super::modulo::{conditions, labels};
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Functional, Relation, Special, SpecialKind};
@@ -104,7 +104,15 @@ pub(super) fn descended(
     };
     let how = match imposed {
         [] => format!("{} as it stands:", above.name),
-        imposed => format!("imposing {} on {},", labels(imposed), above.name),
+        imposed => {
+            let conditions = conditions(&solved).join(" and ");
+            let where_solved = match conditions.as_str() {
+                "" => String::new(),
+                some => format!(" where {some}"),
+            };
+            let labels = labels(imposed);
+            format!("imposing {labels} on {}{where_solved},", above.name)
+        }
     };
     let comparison = Comparison {
         functional: above,

@@ -49,18 +49,23 @@ impl Needed {
     }
 
     fn of(solved: &Solved<'_>, groups: Vec<Group>) -> Needed {
-        let g = &solved.space.graph;
-        let nonzero = solved.nonzero.iter();
-        let mut conditions: Vec<String> = nonzero.map(|&e| format!("{} ≠ 0", g.text(e))).collect();
-        let pivots = solved.pivots.iter();
-        // Cases in which fields or data vanish were looked at, and the normal does not vanish.
-        let open = pivots.filter(|own| !matches!(own.entries, Entries::Fields | Entries::Normal));
-        conditions.extend(open.map(|own| own.said().trim_start_matches(", where ").to_owned()));
         Needed {
             labels: groups.into_iter().map(|group| group.label).collect(),
-            conditions,
+            conditions: conditions(solved),
         }
     }
+}
+
+/// What must be so that equations can be solved as they were.
+pub(super) fn conditions(solved: &Solved<'_>) -> Vec<String> {
+    let g = &solved.space.graph;
+    let nonzero = solved.nonzero.iter();
+    let mut found: Vec<String> = nonzero.map(|&e| format!("{} ≠ 0", g.text(e))).collect();
+    let pivots = solved.pivots.iter();
+    // Cases in which fields or data vanish were looked at, and the normal does not vanish.
+    let open = pivots.filter(|own| !matches!(own.entries, Entries::Fields | Entries::Normal));
+    found.extend(open.map(|own| own.said().trim_start_matches(", where ").to_owned()));
+    found
 }
 
 /// `(3) and (4) where E ≠ 0`.

@@ -232,3 +232,17 @@ fn what_is_found_by_ritz_is_as_assumed_on_the_body_and_its_boundary() {
         );
     }
 }
+
+/// u'' = 10⁴ (u − 1): u = 1 − cosh(100 (x − 1/2))/cosh(50) is nowhere above 1, though polynomials of low degree are.
+#[test]
+fn a_polynomial_that_is_no_solution_says_nothing_of_what_is_assumed() {
+    let held = "{ fixed = [\"u\"] }";
+    let text = format!(
+        "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 + 5000 u^2 - 10000 u\"\nassumptions = [\"1 - u >= 0\"]\n[domain]\n\
+         coordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = {held}\n\"x = 1\" = {held}\n\
+         [ritz]\ndegrees = [0, 2, 4]\n"
+    );
+    let study = studied_text("p4p", &text, &[]);
+    let verdict = decided(&study, "functional.ritz");
+    assert_eq!(verdict.word(), "undecided", "{}", verdict.detail());
+}

@@ -1,7 +1,7 @@
 //! Euler equations and natural conditions in index notation: what T4 §4 and §5 state, and agreement with the components.
 
 use crate::table::{loaded_text, row_text, ROWS};
-use chetaev_functionals::notation::equations::{euler, natural};
+use chetaev_functionals::notation::equations::{euler, natural, Indexed};
 use chetaev_functionals::notation::written;
 use chetaev_functionals::variation::variation;
 use chetaev_symbolic::print::Format;
@@ -87,7 +87,7 @@ fn where_the_stress_is_the_gradient_of_the_energy_it_is_varied_as_a_whole() {
     }
 }
 
-// T4 §5: on S_u, P1c and P0c yield (5), as δP_k is free there; on S_s, P1c yields (6), and P0c (8) and (6).
+// T4 §5: on S_u, P1c and P0c yield (5), where the moduli let δP_k be free there; on S_s, P1c yields (6), and P0c (8) and (6).
 #[test]
 fn conditions_of_rows_whose_stress_is_a_gradient_are_those_of_the_theory() {
     let cases: [(&str, &[&str]); 3] = [
@@ -117,4 +117,52 @@ fn a_coefficient_of_a_symmetric_field_is_its_symmetric_part_without_repeating_te
     let own = equations("pc", &[("d", "2")]);
     let line = "s_ij: B'_ij(s) - 1/2 u_k,i u_k,j - 1/2 u_j,i - 1/2 u_i,j";
     assert!(own.iter().any(|o| same(o, line)), "{own:#?}");
+}
+
+/// The conditions on S_u of a density there in which a definition is varied as a whole.
+fn on_held(d: &str, definition: &str, density: &str) -> Option<Vec<String>> {
+    let text = format!(
+        "kind = \"functional\"\nname = \"held\"\ndensity = \"s_ij s_ij/2 + p u_i,i\"\n[sizes]\nd = {d}\n[domain]\ncoordinates = \"x_i\"\n\
+         boundary = [\"S\"]\n[fields]\np = \"scalar\"\nu = \"vector\"\ns = \"symmetric\"\n[data]\ng = \"vector\"\nh = \"symmetric\"\nf = \"scalar\"\n[define]\n\
+         {definition}\n[boundary]\nS = \"{density}\"\n"
+    );
+    let functional = loaded_text("p4p", &text, &[]).functional;
+    let own = natural(&functional, &functional.pieces[0])?;
+    let line = |one: &Indexed| {
+        let value = written(&one.value, &functional.scope, Format::Text);
+        let only = if one.is_in_general { " in general" } else { "" };
+        format!("{}: {value}{only}", one.of)
+    };
+    Some(own.iter().map(line).collect())
+}
+
+// δP_k = n_k δp has one free number, and n_i δs_ik has all, but not beside another coefficient of δs_ij.
+#[test]
+fn a_coefficient_vanishes_only_where_its_variation_is_free() {
+    for d in ["2", "3"] {
+        let stress = "P_k = \"n_i s_ik\"";
+        let own = on_held(d, stress, "-P_k (u_k - g_k) - p n_k u_k").unwrap();
+        assert!(own.contains(&"P_k: g_k - u_k".to_owned()), "{own:?}");
+        assert_eq!(on_held(d, "P_k = \"p n_k\"", "-P_k (u_k - g_k)"), None);
+        let beside = "-P_k (u_k - g_k) - p n_k u_k + h_ij s_ij";
+        assert_eq!(on_held(d, stress, beside), None);
+        // Where f vanishes nothing is said.
+        let own = on_held(d, "P_k = \"f n_i s_ik\"", "-P_k (u_k - g_k) - p n_k u_k").unwrap();
+        let line = "P_k: g_k - u_k in general".to_owned();
+        assert!(own.contains(&line), "{own:?}");
+    }
+}
+
+// In one dimension all components agree, also where a free letter is one of those that are summed over.
+#[test]
+fn letters_of_a_density_are_none_of_the_free_ones() {
+    let text = "kind = \"functional\"\nname = \"letters\"\ndensity = \"s_ii s_jj s_kk\"\n[sizes]\nd = 1\n[domain]\ncoordinates = \"x_i\"\n\
+                boundary = [\"S\"]\n[fields]\ns = \"symmetric\"\n[boundary]\nS = \"0\"\n";
+    let functional = loaded_text("p4p", text, &[]).functional;
+    let variation = variation(&functional).unwrap();
+    let own = euler(&functional, &variation).into_iter().flatten();
+    let lines: Vec<String> = own
+        .map(|own| written(&own.value, &functional.scope, Format::Text))
+        .collect();
+    assert_eq!(lines, ["3 s_kk s_ll delta_ij"]);
 }

@@ -122,6 +122,25 @@ fn slopes_are_given_without_the_values() {
     assert!(detail.contains(said), "{detail}");
 }
 
+/// u'' + 10 u + f = 0 between two ends: 10 = k² π² for no k, so that u = x − x³ is alone for f = 6 x − 10 (x − x³), though the polynomial of degree
+/// 0 costs nothing: ∫ ((1 − 2 x)² − 10 (x − x²)²) dx = 1/3 − 10/30.
+#[test]
+fn a_degree_without_one_stationary_polynomial_is_passed_over() {
+    let held = "{ fixed = [\"u\"] }";
+    let told = |degrees: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 - 5 u^2 - (6 x - 10 (x - x^3)) u\"\n[domain]\ncoordinates = [\"x\"]\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = {held}\n\"x = 1\" = {held}\n[ritz]\ndegrees = {degrees}\n"
+        );
+        verdict(&studied_text("p4p", &text, &[]), "functional.ritz")
+    };
+    let (word, detail) = told("[0]");
+    assert_eq!(word, "undecided", "{detail}");
+    assert!(detail.contains("no polynomial of degree 0"), "{detail}");
+    let (word, detail) = told("[0, 1, 2]");
+    assert_eq!(word, "proved", "{detail}");
+}
+
 #[test]
 fn values_of_ritz_are_none_of_what_is_varied_or_stated() {
     let text = |values: &str| {

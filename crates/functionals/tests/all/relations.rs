@@ -351,3 +351,34 @@ fn what_goes_through_the_ends_of_the_time_is_a_condition() {
     assert_eq!(dual("u u,t", "0 u"), "conditional");
     assert_eq!(dual("u u,t", "-u u,t"), "proved");
 }
+
+/// The other functional imposes an equation modulo which the sum is a divergence: where a parameter may vanish it says nothing then, and one that
+/// is not solved refutes nothing.
+#[test]
+fn what_the_other_functional_imposes_is_used_as_far_as_it_says_something() {
+    let domain = "[domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\nv = \"scalar\"\n[data]\nq = \"scalar\"\n\
+                  [parameters]\nE = {}\n";
+    let one = format!(
+        "kind = \"functional\"\nname = \"one\"\ndensity = \"u,x v,x - q v\"\n{domain}[boundary]\n\"x = 0\" = \"u,x v\"\n\"x = 1\" = \"-u,x v\"\n\
+         [duality]\nwith = \"other.toml\"\nflux = \"u,x v\"\n"
+    );
+    for (imposed, word, said) in [
+        ("u,xx + q = 0", "proved", "modulo (m)"),
+        ("E u,xx + E q = 0", "proved", "modulo (m) where E ≠ 0"),
+        ("exp(u,xx + q) = 1", "undecided", "(m)"),
+        ("u,xx + 2 q = 0", "refuted", ""),
+    ] {
+        let other = format!(
+            "kind = \"functional\"\nname = \"other\"\ndensity = \"0 u\"\nimposed = [\"m\"]\n{domain}[boundary]\n\"x = 0\" = \"0\"\n\
+             \"x = 1\" = \"0\"\n[equations]\nm = \"{imposed}\"\n"
+        );
+        let study = studied(&one, &other);
+        let verdict = decided(&study, "functional.duality");
+        assert_eq!(verdict.word(), word, "{imposed}: {}", verdict.detail());
+        assert!(
+            verdict.detail().contains(said),
+            "{imposed}: {}",
+            verdict.detail()
+        );
+    }
+}

@@ -237,3 +237,22 @@ fields = {fields}
         assert_eq!(own, word, "{fields}: {detail}");
     }
 }
+
+/// Where u,x = 0 is imposed, δu is a constant: of ∫ (u²/2 − x u) dx on 0 < x < 1 the field u = 1/2 is stationary, and u = 1/4 is not.
+#[test]
+fn a_stated_field_is_stationary_for_the_variations_that_are_admitted() {
+    let word = |value: &str, more: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"u^2/2 - x u\"\nimposed = [\"b\"]\n[domain]\ncoordinates = [\"x\"]\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nm = \"scalar\"\n[boundary]\n\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n\
+             [equations]\nb = \"u,x = 0\"\n{more}[solutions.a.fields]\nu = \"{value}\"\nm = \"x^2/2 - x/2\"\n"
+        );
+        let study = studied_text("p4p", &text, &[]);
+        decided(&study, "functional.solution").word().to_owned()
+    };
+    assert_eq!(word("1/2", ""), "undecided");
+    assert_eq!(word("1/4", ""), "refuted");
+    // With the multiplier m: u − x − m' = 0 inside, and m = 0 at both ends.
+    let multiplier = "[multipliers]\nb = \"-m\"\n";
+    assert_eq!(word("1/2", multiplier), "proved");
+}

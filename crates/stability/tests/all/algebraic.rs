@@ -137,3 +137,32 @@ fn the_place_of_the_collinear_point_is_a_number() {
     let size = g.sqrt(g.powi(distance, 2));
     assert_eq!(sign_of(g, g.add(&[distance, size])), Some(Ordering::Equal));
 }
+
+/// x = 1.167… with y = 0.748…, a zero over a zero, is nearer to the guess than the origin, and has no exact form.
+#[test]
+fn a_guess_is_not_answered_for_a_motion_that_is_farther() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "1/2 (x'^2 + y'^2)"
+[forces]
+x = "x (x^5 - x - 1) - x'"
+y = "x - y^3 - y - y'"
+[steady.right]
+x = { guess = 1.167 }
+y = { guess = 0.75 }
+"x'" = 0
+"y'" = 0
+[steady.origin]
+x = { guess = 0.1 }
+y = { guess = 0.1 }
+"x'" = 0
+"y'" = 0
+"#,
+    );
+    for (motion, expected) in [("right", "undecided"), ("origin", "proved")] {
+        let said = case.said("stability.asymptotic", motion);
+        assert_eq!(said, expected, "{motion}");
+    }
+}
