@@ -92,8 +92,10 @@ export class Ask {
     const select = get<HTMLSelectElement>("ask-about");
     const before = select.value;
     const own = this.offered.motions;
+    const unnamed = own.length === 1 ? `as the model says: ${own[0]}` : "the start, where it is steady";
     const options = [
-      new Option(own.length === 1 ? `as the model says: ${own[0]}` : own.length ? "choose one" : "the start, where it is steady", ""),
+      // Of several one is chosen.
+      ...own.length > 1 ? [] : [new Option(unnamed, "")],
       ...own.map((name) => new Option(name, name)),
       ...this.found.map((name) => new Option(`motion ${name} of those found`, name)),
       new Option("rest, at the initial positions", "rest"),
@@ -101,7 +103,6 @@ export class Ask {
     ];
     select.replaceChildren(...options);
     if (options.some((option) => option.value === before)) select.value = before;
-    else if (own.length > 1) select.value = own[0];
   }
 
   /** The fields of the question that is chosen. */
@@ -253,11 +254,14 @@ export class Ask {
   }
 }
 
+/** Columns, a row of a matrix, a row of a map. */
+const ROW = /\S {2}|^\s*(\S+ = )?\[|[#.]{5}/;
+
 /** Sentences, which are wrapped, and rows of matrices and tables, which are not. */
 function blocks(text: string): HTMLElement[] {
   const found: HTMLElement[] = [];
   for (const line of text.split(/(?<=\n)/)) {
-    const kind = line === "\n" ? found.at(-1)?.className : /^ | {2}/.test(line) ? "rows" : "words";
+    const kind = line === "\n" ? found.at(-1)?.className : ROW.test(line) ? "rows" : "words";
     if (!found.length || found[found.length - 1].className !== kind) {
       found.push(document.createElement("span"));
       found[found.length - 1].className = kind ?? "words";

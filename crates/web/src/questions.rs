@@ -181,11 +181,11 @@ fn refusal(problem: FollowError, model: &Model, sources: Sources) -> Refusal {
 
 /// What the commands say of their options, where a form has fields.
 fn in_page(words: &str) -> String {
-    let options = ["--about ", "--at ", "--over "];
-    let words = options
-        .iter()
-        .fold(words.to_owned(), |words, own| words.replace(own, ""));
-    words.replace("are set by --set", "are set in the model")
+    let words = words.replace("--about ", "").replace("--at ", "");
+    words.replace(
+        "values of parameters of the model are set by --set",
+        "parameters of the model have the values of its text",
+    )
 }
 
 fn of_steady(model: &Model, asked: &Asked, _: &mut dyn FnMut(f64)) -> Result<Answer, FollowError> {
