@@ -248,9 +248,9 @@ class Model:
         """
         Factors by which numbers in units that are no SI base units become such, by the names of parameters.
         """
-    def follow(self, /, about: str | None, over: str | None, orbit: bool, period: str | None, points: SupportsIndex, step: SupportsFloat | SupportsIndex, tell: Callable[[str, float | None], None] | None = None) -> tuple[str, str]:
+    def follow(self, /, about: str | None, over: str | None, orbit: bool, period: str | None, points: SupportsIndex, step: SupportsFloat | SupportsIndex, tell: Callable[[str, float | None], None] | None = None) -> tuple[str, str, str | None]:
         """
-        Steady motions or periodic orbits over a range of a parameter, in words and as JSON: `follow`.
+        Steady motions or periodic orbits over a range of a parameter, in words, as JSON and as SVG: `follow`.
         """
     @property
     def following(self, /) -> list[tuple[str, str]]:

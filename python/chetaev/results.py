@@ -628,6 +628,20 @@ class LinearAlong(Result):
 class Followed(Result):
     """Steady motions or orbits over a range of a parameter: ``points`` with their eigenvalues or multipliers, ``special`` ones."""
 
+    def __init__(self, data: Json, text: str, picture: str | None = None) -> None:
+        super().__init__(data, text)
+        self._picture = picture
+
+    def picture(self) -> str | None:
+        """The motion, or the period of orbits, over the range, and its eigenvalues or multipliers, special points named; ``None`` without a range.
+
+        Returns
+        -------
+        str or None
+            SVG.
+        """
+        return self._picture
+
     @property
     def points(self) -> list[dict[str, Any]]:
         """Points of the curve: value of the parameter, state, eigenvalues or multipliers, stability; in the order of the curve."""
@@ -648,7 +662,7 @@ class Followed(Result):
             return notebook.table(head, [[own.get(key, "") if key == "kind" else _listed(own.get(key)) for key in keys] for own in points])
 
         special = rows(data["special"]) if data["special"] else notebook.paragraph("No special points were met.")
-        shown = special + notebook.unfolding(f"{len(data['points'])} points", rows(data["points"]))
+        shown = notebook.picture(self._picture) + special + notebook.unfolding(f"{len(data['points'])} points", rows(data["points"]))
         return shown + notebook.unfolding("in words", super()._html())
 
 

@@ -1148,8 +1148,8 @@ class System(Shown):
         points, step = whole("points", points, 1, 2**32 - 1), number("step", step)
         about, over, period = word("about", about), word("over", over), word("period", period)
         with _Progress(progress) as tell:
-            text, data = self._anew().follow(about, over, orbit, period, points, step, tell)
-        return Followed(json.loads(data), text)
+            text, data, picture = self._anew().follow(about, over, orbit, period, points, step, tell)
+        return Followed(json.loads(data), text, picture)
 
     def along(self, *, progress: bool = False) -> LinearAlong:
         """Linear equations along the motion from the initial state: A(t), the transition matrix and its exponents, in numbers.

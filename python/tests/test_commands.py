@@ -43,6 +43,7 @@ NOT_KEYWORDS_OF = {
     ("derive", "steps"): "the method steps",
     ("linearize", "along"): "the method along",
     ("stability", "plot"): "the method picture of its result",
+    ("follow", "plot"): "the method picture of its result",
     ("simulate", "sensitivity"): "the method sensitivity",
     ("simulate", "second"): "a keyword of the method sensitivity",
 }

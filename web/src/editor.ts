@@ -82,7 +82,7 @@ export class Editor {
           highlightSelectionMatches(), EditorView.lineWrapping, StreamLanguage.define(toml), syntaxHighlighting(colors), theme,
           autocompletion({ override: [(context) => this.complete(context)] }),
           hoverTooltip((view, position) => this.hover(view, position)),
-          EditorView.contentAttributes.of({ "aria-label": "Model", spellcheck: "false", autocapitalize: "off" }),
+          EditorView.contentAttributes.of({ "aria-label": "Model", tabindex: "0", spellcheck: "false", autocapitalize: "off" }),
           keymap.of([
             { key: "Mod-.", run: () => this.fixNear() },
             { key: "Alt-Enter", run: () => this.fixNear() },

@@ -1,6 +1,7 @@
-// One worker at a time does the work; another one stands ready, so that ending the work means ending the worker.
+// One worker at a time does the work of an engine; another one stands ready, so that ending the work means ending the worker.
 
 import { XzReadableStream } from "xz-decompress";
+import type { Asking } from "./ask";
 import type { Question } from "./worker";
 
 /** Why there is no answer. */
@@ -10,7 +11,7 @@ export class NoAnswer extends Error {
 
 export interface Known {
   version: string;
-  vocabulary: { forms: { name: string; title: string }[]; claims: { id: string; group: string }[] };
+  vocabulary: { forms: { name: string; title: string }[]; claims: { id: string; group: string }[]; questions: Asking[] };
   gallery: { name: string; title: string; files: string[] }[];
   texts: Record<string, string>;
 }
@@ -35,10 +36,15 @@ async function load(): Promise<WebAssembly.Module> {
 }
 
 export class Engine {
-  private readonly module = load();
-  private active: Slot = this.slot();
+  private active: Slot;
   private spare: Slot | null = null;
-  readonly known: Promise<Known> = this.active.ready;
+  readonly known: Promise<Known>;
+
+  /** Another engine may share the module. */
+  constructor(readonly module: Promise<WebAssembly.Module> = load()) {
+    this.active = this.slot();
+    this.known = this.active.ready;
+  }
 
   private slot(): Slot {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });

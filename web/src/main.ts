@@ -1,6 +1,7 @@
 // The page: what is typed goes to the worker, what comes back is shown.
 
 import "./style.css";
+import { Ask, type Offered } from "./ask";
 import { Editor, fixName, type Name, type Problem } from "./editor";
 import { Engine, NoAnswer, type Known } from "./engine";
 import { Gallery } from "./gallery";
@@ -17,6 +18,7 @@ interface Checked {
   title: string | null;
   names: Name[] | null;
   sliders: Slider[] | null;
+  offered: Offered | null;
 }
 
 interface Claim { id: string; group: string; title: string; verdict: string; detail: string }
@@ -50,6 +52,8 @@ class Playground {
   private readonly engine = new Engine();
   private readonly report = new ReportView(get("page"));
   private readonly sliders = new Sliders((s, t) => this.drag(s, t), (s, t) => this.release(s, t));
+  private readonly questions = new Ask(
+    this.engine, () => ({ path: this.path, text: this.editor.text, name: this.shownModel }), (content, name, type) => this.save(content, name, type));
   private readonly editor: Editor;
   private known: Known | null = null;
   private gallery: Gallery | null = null;
@@ -78,6 +82,7 @@ class Playground {
     }
     const ids = this.known.vocabulary.claims.map((claim) => claim.id);
     this.editor.know(null, ids);
+    this.questions.know(this.known);
     this.gallery = new Gallery(this.engine, this.known, (name) => this.take(name), () => { if (this.engine.busy) this.engine.end(); });
     await this.openAddress();
     void this.update();
@@ -87,19 +92,24 @@ class Playground {
   private async openAddress() {
     const name = galleryName(location.hash);
     if (name !== null && this.known?.texts[name] !== undefined) {
-      this.path = `gallery/${name}/model.toml`;
-      this.editor.replace(this.known.texts[name]);
+      this.put(`gallery/${name}/model.toml`, this.known.texts[name]);
       return;
     }
     try {
       const text = await unpack(location.hash);
       if (text !== null) {
-        this.path = NONE;
-        this.editor.replace(text);
+        this.put(NONE, text);
       }
     } catch {
       this.say("The link holds no model that could be read.");
     }
+  }
+
+  /** Another model. */
+  private put(path: string, text: string) {
+    this.path = path;
+    this.editor.replace(text);
+    this.questions.forget();
   }
 
   // What a person does.
@@ -109,14 +119,14 @@ class Playground {
     clearTimeout(this.timer);
     this.generation++;
     this.report.stale = true;
+    this.questions.edited();
     this.timer = window.setTimeout(() => void this.update(), PAUSE);
   }
 
   private take(name: string) {
     const text = this.known?.texts[name];
     if (text === undefined) return;
-    this.path = `gallery/${name}/model.toml`;
-    this.editor.replace(text);
+    this.put(`gallery/${name}/model.toml`, text);
     history.replaceState(null, "", `#gallery=${name}`);
     this.select("report");
   }
@@ -170,6 +180,7 @@ class Playground {
       if (checked.hasErrors) return;
       const stays = checked.title !== null && checked.title === this.shownModel;
       this.shownModel = checked.title ?? "";
+      this.questions.offer(checked.offered ?? { motions: [], parameters: [] });
       await this.look(text, { claims: "none", still: true }, stays, isOwn);
       if (!isOwn()) return;
       performance.mark("equations");
@@ -302,6 +313,13 @@ class Playground {
     get("show-report").setAttribute("aria-pressed", String(which === "report"));
   }
 
+  /** What is on the right: the report, or the questions on steady motions. */
+  private view(which: "page" | "ask") {
+    get("report").dataset.view = which;
+    get("view-page").setAttribute("aria-pressed", String(which === "page"));
+    get("view-ask").setAttribute("aria-pressed", String(which === "ask"));
+  }
+
   // Files and links.
 
   private listen() {
@@ -309,6 +327,8 @@ class Playground {
     get("go").addEventListener("click", () => void this.go());
     get("show-model").addEventListener("click", () => this.select("model"));
     get("show-report").addEventListener("click", () => this.select("report"));
+    get("view-page").addEventListener("click", () => this.view("page"));
+    get("view-ask").addEventListener("click", () => this.view("ask"));
     get("gallery-button").addEventListener("click", () => this.openGallery());
     get("open-button").addEventListener("click", () => get("file").click());
     get("file").addEventListener("change", () => void this.openFile());
@@ -337,6 +357,7 @@ class Playground {
       void this.read(file);
     });
     this.select("model");
+    this.view("page");
   }
 
   private openGallery() {
@@ -357,8 +378,7 @@ class Playground {
 
   private async read(file: File) {
     if (file.size > 1 << 20) { this.say("The file is longer than a megabyte, which no model is."); return; }
-    this.path = NONE;
-    this.editor.replace(await file.text());
+    this.put(NONE, await file.text());
     history.replaceState(null, "", location.pathname);
   }
 

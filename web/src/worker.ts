@@ -8,6 +8,7 @@ export type Question =
   | { kind: "check"; path: string; text: string }
   | { kind: "derive"; path: string; text: string; forms: string; notation: string }
   | { kind: "study"; path: string; text: string; asked: object; whole?: boolean }
+  | { kind: "ask"; path: string; text: string; what: string; asked: object }
   | { kind: "film"; path: string; text: string; width: number; height: number; still: boolean }
   | { kind: "columns"; path: string; text: string; asked: object };
 
@@ -19,6 +20,15 @@ export interface Studied {
   record?: string;
   csv?: string;
   npz?: Uint8Array<ArrayBuffer>;
+}
+
+/** What a question on steady motions gives. */
+export interface Answered {
+  text: string;
+  picture: string;
+  /** Names of the motions that were found, where they were sought. */
+  motions: string[] | null;
+  files: { ending: string; content: Uint8Array<ArrayBuffer> }[];
 }
 
 const post = (message: unknown, moved: Transferable[] = []) => (self as unknown as Worker).postMessage(message, moved);
@@ -36,6 +46,8 @@ async function answer(question: Question): Promise<unknown> {
       return chetaev.derive(question.path, question.text, question.forms, question.notation);
     case "study":
       return studied(question);
+    case "ask":
+      return answered(question);
     case "film": {
       const found = chetaev.study(question.path, question.text, JSON.stringify({ claims: "motion-only", coarse: true }), { told() {} });
       const drawn = question.still ? found.picture(question.width, question.height) : found.film(question.width, question.height, 4);
@@ -66,6 +78,16 @@ function studied(question: Question & { kind: "study" }): Studied {
     result.csv = found.csv();
     result.npz = found.npz() as Uint8Array<ArrayBuffer>;
   }
+  found.free();
+  return result;
+}
+
+function answered(question: Question & { kind: "ask" }): Answered {
+  const told = (kind: string, text: string) => post({ told: kind, text });
+  const found = chetaev.ask(question.path, question.text, question.what, JSON.stringify(question.asked), { told });
+  const endings: string[] = JSON.parse(found.endings());
+  const files = endings.map((ending, i) => ({ ending, content: found.file(i) as Uint8Array<ArrayBuffer> }));
+  const result = { text: found.text(), picture: found.picture(), motions: JSON.parse(found.motions()), files };
   found.free();
   return result;
 }

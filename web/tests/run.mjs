@@ -57,14 +57,47 @@ function near(text, other, model) {
 }
 
 /** Finds nothing serious, in the page and in the report. */
-async function accessible(sheet) {
+async function accessible(sheet, frames) {
   const source = readFileSync(join(ROOT, "web/node_modules/axe-core/axe.min.js"), "utf8");
-  for (const frame of [sheet.page.mainFrame(), await sheet.frame()]) {
+  for (const frame of frames ?? [sheet.page.mainFrame(), await sheet.frame()]) {
     await frame.evaluate(source);
     const { violations } = await frame.evaluate(() => axe.run(document, { iframes: false, resultTypes: ["violations"] }));
     const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
     assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(" | ")}`), []);
   }
+}
+
+/** A model of the gallery with the questions on steady motions beside it. */
+async function asking(sheet, model) {
+  await sheet.open(`#gallery=${model}`);
+  await sheet.mark("equations");
+  if (await sheet.page.isVisible("#show-report")) await sheet.page.click("#show-report");
+  await sheet.page.click("#view-ask");
+}
+
+/** Asks what the form says and gives the words of the answer. */
+async function answered(sheet, what, fields = {}, seconds = 120) {
+  const { page } = sheet;
+  await page.selectOption("#ask-what", what);
+  for (const [id, value] of Object.entries(fields)) {
+    if (await page.evaluate((id) => document.getElementById(id).tagName === "SELECT", id)) await page.selectOption(`#${id}`, value);
+    else await page.fill(`#${id}`, value);
+  }
+  const since = await sheet.now();
+  await page.click("#ask-go");
+  const took = Math.round(await sheet.mark("answer", since, seconds) - since);
+  numbers[`${what}Milliseconds`] = Math.max(took, numbers[`${what}Milliseconds`] ?? 0);
+  return page.textContent("#answer pre");
+}
+
+/** The same where there is no answer. */
+async function refused(sheet, what, fields) {
+  await sheet.page.selectOption("#ask-what", what);
+  for (const [id, value] of Object.entries(fields)) await sheet.page.fill(`#${id}`, value);
+  const since = await sheet.now();
+  await sheet.page.click("#ask-go");
+  await sheet.mark("refusal", since);
+  return sheet.page.textContent("#answer .refused");
 }
 
 const tests = [
@@ -298,6 +331,75 @@ const tests = [
     await sheet.page.click("#theme-button");
     await accessible(sheet);
   }],
+
+  ["the bicycle is stable between two speeds", async (sheet) => {
+    await asking(sheet, "whipple-bicycle");
+    assert.equal(await sheet.page.inputValue("#ask-parameter"), "v");
+    // The report of the bicycle is large; asking takes nothing of the page's own thread.
+    await sheet.mark("motion", 0, 120);
+    await sheet.page.waitForTimeout(500);
+    await sheet.page.evaluate(() => { globalThis.longest = 0; });
+    const words = await answered(sheet, "stability", { "ask-from": "0", "ask-to": "10" });
+    assert.match(words, /4\.29238253634110\d* < v < 6\.02426201538835\d*: stable/);
+    assert.match(await sheet.page.textContent("#answer svg"), /4\.292383[^]*6\.024262/);
+    assert.ok(await sheet.longest() <= 100, `a task of ${await sheet.longest()} ms`);
+    await accessible(sheet, [sheet.page.mainFrame()]);
+    await sheet.page.click("#theme-button");
+    await accessible(sheet, [sheet.page.mainFrame()]);
+    const [file] = await Promise.all([sheet.page.waitForEvent("download"), sheet.page.click("#answer .files button:has-text('JSON')")]);
+    const { critical } = JSON.parse(readFileSync(await file.path(), "utf8"));
+    assert.deepEqual(critical.map(({ kind, value }) => [kind, value.toFixed(6)]), [["pair", "4.292383"], ["zero", "6.024262"]]);
+    // Over the trail too, coarsely.
+    const map = await answered(sheet, "stability", { "ask-second": "c", "ask-second-from": "0.02", "ask-second-to": "0.14", "ask-side": "12" });
+    assert.match(map, /boundary from .*a pair of eigenvalues passes the axis/);
+    assert.ok(await sheet.page.locator("#answer svg polyline").count() >= 2);
+    // What is computed for long is stopped.
+    await sheet.page.fill("#ask-side", "200");
+    await sheet.page.click("#ask-go");
+    await sheet.page.waitForFunction(() => /%/.test(document.getElementById("ask-said").textContent));
+    await sheet.page.click("#ask-stop");
+    assert.equal(await sheet.page.textContent("#ask-said"), "Stopped.");
+    assert.match(await refused(sheet, "stability", { "ask-parameter": "speed", "ask-second": "" }), /`speed` is no parameter of the model; its parameters are .*\bv\b/);
+  }],
+
+  ["the steady motions of the rolling disc", async (sheet) => {
+    await asking(sheet, "falling-rolling-disc");
+    const words = await answered(sheet, "steady");
+    assert.match(words, /a family with 2 parameters\n\s+theta = theta_0, free/);
+    assert.match(words, /These are all/);
+    const about = await sheet.page.evaluate(() => [...document.querySelectorAll("#ask-about option")].map((option) => option.value));
+    assert.ok(["1", "2", "3"].every((name) => about.includes(name)), about.join());
+  }],
+
+  ["the frequencies of the double pendulum, and words at the place of a mistake", async (sheet) => {
+    await asking(sheet, "double-pendulum");
+    await answered(sheet, "steady");
+    const words = await answered(sheet, "linearize", { "ask-about": "1" });
+    assert.match(words, /0\.000000\+5\.787351i/);
+    assert.match(words, /0\.000000\+2\.397199i/);
+    assert.match(await sheet.page.textContent("#answer .files"), /LaTeX.*MATLAB/);
+    await sheet.page.selectOption("#ask-about", "rest");
+    assert.match(await refused(sheet, "linearize", {}), /the motion `rest` is not steady/);
+    // An answer is about the text that was asked about.
+    await answered(sheet, "steady");
+    await sheet.paste(SLEIGH);
+    assert.ok(await sheet.page.isVisible("#ask-old"));
+    await answered(sheet, "steady");
+    assert.ok(!(await sheet.page.isVisible("#ask-old")));
+    await sheet.paste(SLEIGH.replace("phi' sin(phi))^2", "phi' sin(phj))^2"));
+    assert.ok(await sheet.page.isVisible("#ask-old"));
+    assert.match(await refused(sheet, "steady", {}), /model\.toml:\d+:\d+/);
+  }],
+
+  ["the governor is followed to its Hopf point, on a phone too", async (sheet) => {
+    await asking(sheet, "watt-governor");
+    const words = await answered(sheet, "follow", { "ask-parameter": "eps", "ask-from": "0.1", "ask-to": "1" });
+    assert.match(words, /eps = 0\.464758\d*: Hopf point/);
+    assert.match(await sheet.page.textContent("#answer svg"), /Hopf 0\.464758/);
+    assert.ok(await sheet.page.evaluate(() => document.documentElement.scrollWidth - innerWidth) <= 0);
+    assert.ok(await sheet.page.evaluate(() => { const box = document.getElementById("ask"); return box.scrollWidth - box.clientWidth; }) <= 0);
+    await accessible(sheet, [sheet.page.mainFrame()]);
+  }, { viewport: { width: 390, height: 800 } }],
 
   ["mutated models", async (sheet) => {
     await sheet.open();

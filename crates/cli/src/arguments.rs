@@ -197,7 +197,7 @@ pub(crate) struct Steady {
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
-  chetaev follow gallery/watt-governor/model.toml --over eps=0.1:1
+  chetaev follow gallery/watt-governor/model.toml --over eps=0.1:1 --plot governor.svg
   chetaev follow gallery/kapitza-pendulum/model.toml --about rest --set push=0 --orbit --period \"2 pi/Omega\" --over Omega=90:110
   chetaev follow gallery/double-pendulum/model.toml --about 1 --over g=1:20
   chetaev follow model.toml --orbit")]
@@ -222,6 +222,9 @@ pub(crate) struct Follow {
     /// The longest step along the curve, in parts of the range: --step 0.001 makes a thousand points of it
     #[arg(long, value_name = "PART", default_value_t = 0.05)]
     pub(crate) step: f64,
+    /// Write a picture: the motion and its eigenvalues over the parameter, special points named
+    #[arg(long, value_name = "FILE.svg", requires = "over")]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON: points with their eigenvalues or multipliers, and special points
     #[arg(long)]
     pub(crate) json: bool,

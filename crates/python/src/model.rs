@@ -572,7 +572,7 @@ impl Model {
         }
     }
 
-    /// Steady motions or periodic orbits over a range of a parameter, in words and as JSON: `follow`.
+    /// Steady motions or periodic orbits over a range of a parameter, in words, as JSON and as SVG: `follow`.
     #[pyo3(signature = (about, over, orbit, period, points, step, tell=None))]
     #[allow(
         clippy::too_many_arguments,
@@ -588,7 +588,7 @@ impl Model {
         points: usize,
         step: f64,
         tell: Option<Tell<'_, '_>>,
-    ) -> PyResult<(String, String)> {
+    ) -> PyResult<(String, String, Option<String>)> {
         let found = waiting::whole(py, tell, |hooks| {
             (hooks.progress)("following", None);
             let wanted = follow::Wanted {
@@ -602,7 +602,7 @@ impl Model {
             follow::follow(&self.model, &wanted).map_err(Box::new)
         })?;
         match found {
-            Ok(found) => Ok((found.text(), found.json().to_string())),
+            Ok(found) => Ok((found.text(), found.json().to_string(), found.picture())),
             Err(problem) => Err(self.not_followed(py, *problem)),
         }
     }

@@ -12,7 +12,7 @@ const USUAL: std::ops::Range<f64> = 1e-3..1e7;
 /// What is smaller than this part of the largest number is rounding.
 const ROUNDED: f64 = 5e-13;
 /// States are known to this part of one.
-const KNOWN: f64 = 1e-12;
+pub(crate) const KNOWN: f64 = 1e-12;
 
 impl Decimals {
     /// For complex numbers, with six places.

@@ -6,6 +6,7 @@
     reason = "an error is made once, and told at once"
 )]
 
+mod plot;
 pub(crate) mod text;
 
 pub(crate) use text::hopf;

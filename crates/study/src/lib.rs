@@ -13,6 +13,7 @@
 //!   [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
+mod axes;
 pub mod beside;
 pub mod board;
 mod decimals;

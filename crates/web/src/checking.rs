@@ -1,9 +1,11 @@
 //! Everything wrong or doubtful in a text, with fixes that were tried, and what the page offers to move.
 
 use crate::reading::{read, Read};
+use chetaev::mechanics::System;
 use chetaev::model::model::{Model, Parameter};
 use chetaev::model::units::Unit;
 use chetaev::model::{Diagnostic, Diagnostics};
+use chetaev::stability::question::parameter_of_motion;
 use chetaev::study::{check, diagnostics, Hooks};
 use chetaev::symbolic::Expr;
 use serde::Serialize;
@@ -13,7 +15,7 @@ use toml_edit::{Document, Item, TableLike};
 /// Fixes that are tried for one text.
 const TRIED: usize = 12;
 
-/// What is found, as JSON: `diagnostics`, `names`, `sliders`, `title`, `isFunctional`. Places count UTF-16 units.
+/// What is found, as JSON: `diagnostics`, `names`, `sliders`, `offered`, `title`, `isFunctional`. Places count UTF-16 units.
 pub(crate) fn checked(path: &str, text: &str, hooks: &mut Hooks<'_>) -> Value {
     let (model, found, is_functional) = match read(path, text) {
         Read::Functional(loaded) => (None, loaded.diagnostics, true),
@@ -35,6 +37,7 @@ pub(crate) fn checked(path: &str, text: &str, hooks: &mut Hooks<'_>) -> Value {
         "title": model.as_ref().map(|model| model.name.clone()),
         "names": model.as_ref().map(names),
         "sliders": model.as_ref().map(|model| sliders(text, model)),
+        "offered": model.as_ref().map(offered),
     })
 }
 
@@ -267,6 +270,31 @@ fn number(table: &dyn TableLike, name: &str) -> Option<Number> {
         start: span.start,
         end: span.end,
         quoted: text.is_some(),
+    })
+}
+
+/// What there is to ask about: the motions that a model names, and its parameters that have a value, each with a range: first the one that
+/// names the members of the family of the first motion, then those with a stated range.
+fn offered(model: &Model) -> Value {
+    let system = System::from_model(model).ok();
+    let first = system.and_then(|system| {
+        let symbol = parameter_of_motion(&system, system.steady.first()?)?;
+        Some(system.graph.symbol_text(symbol))
+    });
+    let value = |p: &Parameter| {
+        let found = model.graph.evaluate_f64(&[p.definition?], &|_| None);
+        found.ok()?.first().copied()
+    };
+    let valued = model.parameters.iter();
+    let mut valued: Vec<(&Parameter, f64)> = valued.filter_map(|p| Some((p, value(p)?))).collect();
+    valued.sort_by_key(|(p, _)| (first.as_ref() != Some(&p.name), p.range.is_none()));
+    let parameter = |&(p, value): &(&Parameter, f64)| {
+        let (low, high) = range(model, p, value);
+        json!({"name": p.name, "low": low, "high": high})
+    };
+    json!({
+        "motions": model.steady.iter().map(|own| own.name.clone()).collect::<Vec<_>>(),
+        "parameters": valued.iter().map(parameter).collect::<Vec<_>>(),
     })
 }
 

@@ -3,12 +3,14 @@
 //! The module runs in a worker of the page, without threads, files or a clock of its own; [`Listener`] hears what is found while it is found.
 //! Work that is to stop is left by an exception of the host ([`chetaev::symbolic::meter::Escape`]), as nothing unwinds there.
 //!
-//! - `reading`: texts as models; `checking`: diagnostics, fixes and sliders; `outcome`: a study that is done;
+//! - `reading`: texts as models; `checking`: diagnostics, fixes and sliders; `outcome`: a study that is done; `questions`: steady motions, linear
+//!   equations, stability, branches, all by one entry ([`ask`]);
 //! - `refusal`: why there is no answer; `shelf`: the gallery as files; `host`: what the browser provides.
 
 mod checking;
 mod host;
 mod outcome;
+mod questions;
 mod reading;
 mod refusal;
 mod shelf;
@@ -22,6 +24,7 @@ use chetaev::study::{
 use host::seconds;
 pub use host::Listener;
 pub use outcome::Outcome;
+pub use questions::Answer;
 use reading::Read;
 pub use refusal::Refusal;
 use serde::Deserialize;
@@ -52,7 +55,7 @@ pub fn gallery_text(folder: &str, file: &str) -> String {
     shelf::text(folder, file).unwrap_or_default().to_owned()
 }
 
-/// The forms of the equations of motion and the claims, as JSON, for menus and completion.
+/// The forms of the equations of motion, the claims and the questions of [`ask`], as JSON, for menus and completion.
 #[wasm_bindgen]
 pub fn vocabulary() -> String {
     let forms = FORMULATIONS.iter().map(|f| {
@@ -67,6 +70,7 @@ pub fn vocabulary() -> String {
     json!({
         "forms": forms.collect::<Vec<_>>(),
         "claims": claims.collect::<Vec<_>>(),
+        "questions": questions::vocabulary(),
     })
     .to_string()
 }
@@ -199,6 +203,28 @@ pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result
             ))
         }
     }
+}
+
+/// What `chetaev steady`, `linearize`, `stability` or `follow` answers; `asked` is JSON with their options. The listener hears `part` (which part
+/// is done).
+///
+/// # Errors
+/// What is wrong, in words.
+#[wasm_bindgen]
+pub fn ask(
+    path: &str,
+    text: &str,
+    question: &str,
+    asked: &str,
+    listener: &Listener,
+) -> Result<Answer, Refusal> {
+    let mut tell = |part: f64| listener.told("part", &format!("{part}"));
+    let found = with_hooks(&mut |_, _| {}, |hooks| {
+        interruptible(hooks, |_| {
+            questions::answered((path, text), (question, asked), &mut tell)
+        })
+    });
+    found.map_err(|_| Refusal::Stopped)?
 }
 
 /// A claim with its verdict as JSON.

@@ -33,3 +33,15 @@ pub(crate) fn motion(path: &str, text: &str) -> Result<Model, Refusal> {
     let (model, _) = loaded.into_result().map_err(Refusal::Model)?;
     Ok(model)
 }
+
+/// The same with the texts that it was read from, for what fields over space do not have.
+///
+/// # Errors
+/// Its problems.
+pub(crate) fn with_sources(path: &str, text: &str) -> Result<(Model, Sources), Refusal> {
+    let Read::Motion(loaded) = read(path, text) else {
+        return Err(Refusal::NoMotion);
+    };
+    let (model, said) = loaded.into_result().map_err(Refusal::Model)?;
+    Ok((model, said.sources))
+}

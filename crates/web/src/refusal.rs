@@ -33,6 +33,14 @@ pub enum Refusal {
     /// Code of a functional.
     #[error("code is made of equations of motion; a functional has field equations")]
     NoCode,
+    /// A functional, of which motions are asked.
+    #[error(
+        "steady motions are those of equations of motion; this model states fields over space"
+    )]
+    NoMotion,
+    /// A question on steady motions has no answer, in the words of the command.
+    #[error("{0}")]
+    Unanswered(String),
     /// What is asked cannot be read.
     #[error(transparent)]
     Question(#[from] serde_json::Error),

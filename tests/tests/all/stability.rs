@@ -397,13 +397,17 @@ fn polynomial(function: &str, values: &[(&str, f64)]) -> f64 {
 /// The figures of the chapter are what the program draws today.
 #[test]
 fn figures_of_the_chapter_are_those_of_the_program() {
-    let path = model("whipple-bicycle");
-    for (name, range) in [("bicycle", "v=0:10"), ("map", "v=0:10,c=0.02:0.14")] {
+    for (name, command, system, range) in [
+        ("bicycle", "stability", "whipple-bicycle", "v=0:10"),
+        ("map", "stability", "whipple-bicycle", "v=0:10,c=0.02:0.14"),
+        ("governor", "follow", "watt-governor", "eps=0.1:1"),
+    ] {
+        let path = model(system);
         let shown = root().join(format!("docs/book/stability/{name}.svg"));
         let folder = std::env::temp_dir();
         let drawn = folder.join(format!("chetaev-{name}-{}.svg", std::process::id()));
         let options = ["--over", range, "--plot", text(&drawn)];
-        let finished = run(&[&["stability", text(&path)], &options[..]].concat());
+        let finished = run(&[&[command, text(&path)], &options[..]].concat());
         assert_eq!(finished.status, Some(0), "{}", finished.both());
         let (now, shown) = (
             std::fs::read_to_string(&drawn),

@@ -25,6 +25,13 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         line.show("following", None);
         follow(&read.model, &wanted)
     });
+    let picture = found.as_ref().ok().and_then(|found| found.picture());
+    if let Some((path, picture)) = arguments.plot.as_ref().zip(picture) {
+        if let Err(problem) = files::write(path, picture.as_bytes()) {
+            error(problem);
+            return INPUT;
+        }
+    }
     match found {
         Ok(found) if arguments.json => {
             let text = serde_json::to_string_pretty(&found.json()).unwrap_or_default();

@@ -59,15 +59,22 @@ impl<'f> Varied<'f> {
         let Some(columns) = self.columns() else {
             return Freedom::Unknown;
         };
-        // Fields that are shown beside, in the same columns, are varied by them too.
         let space = &*self.functional.space;
-        let own: Vec<Expr> = self.fields.iter().map(|&c| space.jet(c, &[])).collect();
         let slopes = |e: Expr| -> Vec<Expr> { columns.iter().map(|c| self.slope(e, c)).collect() };
-        let is_zero = |row: &Vec<Expr>| row.iter().all(|&e| space.graph.is_zero(e));
-        let of_fields = own.into_iter().map(slopes).filter(|row| !is_zero(row));
-        let of_wholes = self.wholes.iter().map(|&e| slopes(e));
-        let rows: Vec<Vec<Expr>> = of_wholes.chain(of_fields).collect();
-        self.rank(&rows, columns.len())
+        let of_wholes: Vec<Vec<Expr>> = self.wholes.iter().map(|&e| slopes(e)).collect();
+        // A field that is shown beside, and on whose value no whole depends, is varied by that alone.
+        let used: Vec<usize> = (0..columns.len())
+            .filter(|&c| of_wholes.iter().any(|row| !space.graph.is_zero(row[c])))
+            .collect();
+        let is_used = |&component: &usize| {
+            let mut own = used.iter().map(|&c| &columns[c]);
+            own.any(|own| own.component == component && !own.is_slope)
+        };
+        let beside = self.fields.iter().copied().filter(is_used);
+        let beside = beside.map(|component| slopes(space.jet(component, &[])));
+        let rows = of_wholes.iter().cloned().chain(beside);
+        let rows = rows.map(|row| used.iter().map(|&c| row[c]).collect());
+        self.rank(&rows.collect::<Vec<_>>(), used.len())
     }
 
     /// What is varied by itself at a point: components of which no derivative along the piece occurs, and derivatives across it.

@@ -164,5 +164,5 @@ fn letters_of_a_density_are_none_of_the_free_ones() {
     let lines: Vec<String> = own
         .map(|own| written(&own.value, &functional.scope, Format::Text))
         .collect();
-    assert_eq!(lines, ["3 s_kk s_ll delta_ij"]);
+    assert_eq!(lines, ["3 delta_ij s_kk s_ll"]);
 }

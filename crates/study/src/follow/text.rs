@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 /// Rows of the table.
 const ROWS: usize = 12;
 /// Multipliers nearer to the circle may be on it.
-const ON_CIRCLE: f64 = 1e-7;
+pub(super) const ON_CIRCLE: f64 = 1e-7;
 
 impl Followed {
     /// What was found in words.
@@ -191,7 +191,7 @@ impl Followed {
     }
 
     /// Where the eigenvalues lie that structure does not give.
-    fn stability(&self, point: &Point) -> &'static str {
+    pub(super) fn stability(&self, point: &Point) -> &'static str {
         let values = &point.spectrum.values;
         if values.is_empty() {
             "all by structure"
@@ -297,7 +297,7 @@ pub(crate) fn hopf(frequency: f64, coefficient: f64) -> String {
     format!("Hopf point: a pair passes the imaginary axis with frequency {}; the first Lyapunov coefficient is {}: {kind}", real(frequency, 9), real(coefficient, 9))
 }
 
-fn word(kind: Kind) -> &'static str {
+pub(super) fn word(kind: Kind) -> &'static str {
     match kind {
         Kind::Fold => "fold",
         Kind::BranchPoint => "branch point",

@@ -2,81 +2,14 @@
 
 use super::map::{Kind, StabilityMap};
 use super::{Range, Stability};
-use chetaev_report::escaped;
+use crate::axes::{document, Axes};
+use crate::decimals::real;
 use chetaev_stability::question::Place;
+use chetaev_symbolic::Rational;
 use std::fmt::Write as _;
 
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 440.0;
-const LEFT: f64 = 70.0;
-const BELOW: f64 = 50.0;
-const BORDER: f64 = 20.0;
 /// Values of the parameter at which eigenvalues are drawn.
 const SAMPLES: usize = 600;
-/// Parts of an axis between marks, about.
-const MARKS: f64 = 6.0;
-
-/// A frame with its axes: what is left, right, below and above.
-struct Axes {
-    x: (f64, f64),
-    y: (f64, f64),
-}
-
-impl Axes {
-    fn at(&self, x: f64, y: f64) -> (f64, f64) {
-        let part = |value: f64, (low, high): (f64, f64)| (value - low) / (high - low);
-        let width = WIDTH - LEFT - BORDER;
-        let height = HEIGHT - BELOW - BORDER;
-        (
-            LEFT + part(x, self.x) * width,
-            HEIGHT - BELOW - part(y, self.y) * height,
-        )
-    }
-
-    /// The picture around what is drawn in it.
-    fn framed(&self, (title, names): (&str, [&str; 2]), inside: &str) -> String {
-        let mut text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"sans-serif\" font-size=\"13\" role=\"img\"><title>{}</title><rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"white\"/>{inside}",
-            escaped(title)
-        );
-        let (x0, y0) = self.at(self.x.0, self.y.0);
-        let (x1, y1) = self.at(self.x.1, self.y.1);
-        let _ = write!(
-            text,
-            "<path d=\"M{x0:.1} {y1:.1}V{y0:.1}H{x1:.1}\" fill=\"none\" stroke=\"#444\"/>"
-        );
-        for x in marks(self.x) {
-            let (at, _) = self.at(x, self.y.0);
-            let _ = write!(text, "<path d=\"M{at:.1} {y0:.1}v5\" stroke=\"#444\"/><text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{x}</text>", y0 + 20.0);
-        }
-        for y in marks(self.y) {
-            let (_, at) = self.at(self.x.0, y);
-            let _ = write!(text, "<path d=\"M{x0:.1} {at:.1}h-5\" stroke=\"#444\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{y}</text>", x0 - 9.0, at + 4.0);
-        }
-        let _ = write!(
-            text,
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-            0.5 * (x0 + x1),
-            HEIGHT - 10.0,
-            escaped(names[0])
-        );
-        let _ = writeln!(text, "<text transform=\"translate(16 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text></svg>", 0.5 * (y0 + y1), escaped(names[1]));
-        text
-    }
-}
-
-/// Round values on an axis: 1, 2 or 5 times a power of ten apart.
-fn marks((low, high): (f64, f64)) -> Vec<f64> {
-    let rough = (high - low) / MARKS;
-    let power = 10_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|own| own * power);
-    let step = step.into_iter().find(|own| *own >= rough).unwrap_or(rough);
-    let first = (low / step).ceil() as i64;
-    let last = (high / step).floor() as i64;
-    // Decimal as they are printed.
-    let decimal = |i: i64| format!("{:.10}", i as f64 * step).parse().unwrap_or(0.0);
-    (first..=last).map(decimal).collect()
-}
 
 impl Stability {
     /// Real and imaginary parts of the eigenvalues over the range, with the ranges of stability shaded; `None` without a range.
@@ -130,7 +63,16 @@ impl Stability {
             &range.name[..],
             "real parts (blue), imaginary parts (orange)",
         ];
-        Some(axes.framed((&title, names), &inside))
+        inside.push_str(&axes.lines(&self.changes()));
+        Some(document(&title, &[axes.panel(names, &inside)]))
+    }
+
+    /// The values within the range at which stability changes, in print.
+    fn changes(&self) -> Vec<(f64, String)> {
+        let boundaries = self.ranges.iter().flat_map(|own| &own.boundaries);
+        let middles = boundaries.map(|own| (&own.root.low + &own.root.high) / Rational::from(2));
+        let values = middles.map(|own| own.to_f64().value());
+        values.map(|at| (at, real(at, 6))).collect()
     }
 }
 
@@ -189,6 +131,6 @@ impl StabilityMap {
         }
         let title = format!("Stability of {}, motion {}", self.name, self.motion);
         let names = [&self.ranges[0].name[..], &self.ranges[1].name[..]];
-        axes.framed((&title, names), &inside)
+        document(&title, &[axes.panel(names, &inside)])
     }
 }
