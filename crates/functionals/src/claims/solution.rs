@@ -475,7 +475,7 @@ impl<'f> Inserted<'f> {
         if kernel.is_empty() {
             return format!("no variation by polynomials of degree {DEGREE} is admissible, so that there is nothing to vary");
         }
-        let mut free = match &kernel[..] {
+        let mut free = match kernel {
             [only] => format!(
                 "1 of {all} coefficients is free: {}",
                 self.written(ansatz, only).join(", ")
