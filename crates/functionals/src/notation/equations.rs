@@ -308,19 +308,19 @@ fn apart(calculus: &Calculus<'_>, term: Term, mut own: Occurrence) -> (Term, Occ
     all.dedup();
     let pairs: Vec<(char, char)> = all.into_iter().map(|l| (l, calculus.fresh())).collect();
     for index in own.indices.iter_mut().chain(&mut own.derivatives) {
-        if let Index::Letter(letter) = index {
-            if let Some((_, made)) = pairs.iter().find(|(known, _)| known == letter) {
-                *letter = *made;
-            }
+        let Index::Letter(letter) = index else {
+            continue;
+        };
+        if let Some((_, made)) = pairs.iter().find(|(known, _)| known == letter) {
+            *letter = *made;
         }
     }
-    let factors = term
-        .factors
-        .iter()
-        .map(|own| renamed(own, &pairs))
-        .collect();
-    let number = term.number;
-    (Term { number, factors }, own)
+    let factors = term.factors.iter().map(|own| renamed(own, &pairs));
+    let term = Term {
+        factors: factors.collect(),
+        number: term.number,
+    };
+    (term, own)
 }
 
 /// `(−1)^m coefficient` by α, for `Σ (−1)^m (coefficient),α`: derivatives are moved off the variation.

@@ -169,10 +169,11 @@ fn of_atom(atom: &Atom, span: Span, names: &dyn Names, problems: &mut Vec<Diagno
     if let Some(argument) = &atom.argument {
         let before = problems.len();
         let own = letters_of(argument, names, problems).free();
-        let rank = names.function(&atom.name).unwrap_or(0);
+        let known = names.function(&atom.name);
+        let rank = known.unwrap_or(0);
         // A tensor may be named without its indices: A(e) is A(e_ij).
         let bare = matches!(&argument.kind, Kind::Atom(a) if a.indices.is_empty());
-        if problems.len() == before && !bare && own.len() != rank {
+        if problems.len() == before && !bare && known.is_some() && own.len() != rank {
             problems.push(
                 Diagnostic::error(
                     "index-mismatch",

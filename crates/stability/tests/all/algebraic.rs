@@ -163,6 +163,6 @@ y = { guess = 0.1 }
     );
     for (motion, expected) in [("right", "undecided"), ("origin", "proved")] {
         let said = case.said("stability.asymptotic", motion);
-        assert_eq!(said, expected, "{motion}");
+        assert!(said.starts_with(expected), "{motion}: {said}");
     }
 }
