@@ -107,10 +107,12 @@ fn of_polynomial(p: Coefficients, lower: &Rational, upper: &Rational) -> Sign {
         parts.push((a, c.clone()));
         parts.push((c, b));
     }
-    match (is_zero_inside, is_zero_at_end) {
-        (true, _) => Sign::Nonnegative,
-        (false, true) => Sign::PositiveInside,
-        (false, false) => Sign::Positive,
+    if is_zero_inside {
+        Sign::Nonnegative
+    } else if is_zero_at_end {
+        Sign::PositiveInside
+    } else {
+        Sign::Positive
     }
 }
 

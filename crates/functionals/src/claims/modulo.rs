@@ -92,16 +92,14 @@ pub(super) fn among(
     let solved = Solved::new(&functional.space).with(held);
     let refuted = es.iter().map(|&e| solved.verdict(e));
     let mut refuted = refuted.filter(|own| matches!(own, Verdict::Refuted(_)));
-    match (solved.left.is_empty(), refuted.next()) {
-        (true, Some(own)) => own,
-        _ => {
-            let all: Vec<String> = held.iter().map(|group| group.label.clone()).collect();
-            let labels = labels(&all);
-            Verdict::undecided(format!(
-                "no fields were found that satisfy {labels} and for which it is false"
-            ))
-        }
-    }
+    let refuted = refuted.next().filter(|_| solved.left.is_empty());
+    refuted.unwrap_or_else(|| {
+        let all: Vec<String> = held.iter().map(|group| group.label.clone()).collect();
+        let labels = labels(&all);
+        Verdict::undecided(format!(
+            "no fields were found that satisfy {labels} and for which it is false"
+        ))
+    })
 }
 
 /// A proof that expressions vanish modulo the fewest of the equations, with these; else the verdict without any.

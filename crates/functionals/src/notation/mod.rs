@@ -5,13 +5,16 @@
 //! [`chetaev_symbolic::syntax`]; what tokens mean together is decided here, since a comma means something else there.
 
 mod apart;
+mod by_parts;
 mod canonical;
+mod densities;
 pub mod equations;
 mod freedom;
 mod indices;
 mod parse;
 mod print;
 mod terms;
+mod traction;
 
 pub use indices::{check, free_letters};
 pub use parse::{parse, parse_comparison, parse_sides};
