@@ -350,3 +350,33 @@ fn symmetrized(groups: Groups, (i, j): (char, char)) -> Option<Groups> {
     }
     Some(both)
 }
+
+/// Letters for the free indices of a field.
+pub(super) fn free_of(shape: Shape, scope: &Scope) -> Option<Vec<char>> {
+    let is_coordinate = |letter: &char| {
+        scope
+            .space
+            .coordinates
+            .iter()
+            .any(|c| c.name == letter.to_string())
+    };
+    let wanted = match shape.rank() {
+        0 => "",
+        1 => "klmpqrs",
+        2 => "ijlmpqrs",
+        _ => return None,
+    };
+    let usable: Vec<char> = wanted.chars().filter(|l| !is_coordinate(l)).collect();
+    usable.get(..shape.rank()).map(<[char]>::to_vec)
+}
+
+/// The components of a coefficient in the order of those of the field.
+pub(super) fn components(scope: &Scope, value: &Node, shape: Shape, free: &[char]) -> Vec<Expr> {
+    let d = scope.space.dimensions();
+    let all = Tensor {
+        rank: free.len(),
+        components: scope.components(value, free),
+    };
+    let own = shape.components(d).into_iter();
+    own.filter_map(|(indices, _)| all.at(&indices, d)).collect()
+}

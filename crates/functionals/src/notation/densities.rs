@@ -1,7 +1,6 @@
 //! The densities from which equations in index notation are derived: with the terms of multipliers, and with what is varied as a whole in them.
 
-use super::by_parts::coefficient;
-use super::equations::{components, free_of};
+use super::by_parts::{coefficient, components, free_of};
 use super::terms::{names, Calculus, Linear};
 use super::{free_letters, parse, parse_sides, Atom, Index, Kind, Node};
 use crate::functional::{Equation, Functional, Role};

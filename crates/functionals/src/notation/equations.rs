@@ -5,7 +5,7 @@
 //! a whole: the conditions then are the coefficients of δP_k and δu_k (T4 §4). The gradient of an energy, `s_ij = A'_ij(D)`, is varied as a
 //! whole where its coefficient vanishes identically. Multipliers of imposed equations are varied by nothing, and put in at the end.
 
-use super::by_parts::coefficient;
+use super::by_parts::{coefficient, components, free_of};
 use super::densities::Densities;
 use super::freedom::{Freedom, Varied};
 use super::terms::{names, times, Calculus, Linear};
@@ -14,7 +14,7 @@ use super::{Index, Node};
 use crate::functional::{Field, Functional, Piece};
 use crate::read::on_side;
 use crate::space::Jet;
-use crate::tensors::{Scope, Shape, Tensor};
+use crate::tensors::{Scope, Shape};
 use crate::variation::{piece_form, vanishes_on, Form, Variation};
 use chetaev_symbolic::Expr;
 use std::collections::{BTreeMap, BTreeSet};
@@ -74,41 +74,11 @@ fn agree(functional: &Functional, a: Expr, b: Expr) -> bool {
     space.graph.is_zero(difference) || space.vanish(&[difference])
 }
 
-/// Letters for the free indices of a field.
-pub(super) fn free_of(shape: Shape, scope: &Scope) -> Option<Vec<char>> {
-    let is_coordinate = |letter: &char| {
-        scope
-            .space
-            .coordinates
-            .iter()
-            .any(|c| c.name == letter.to_string())
-    };
-    let wanted = match shape.rank() {
-        0 => "",
-        1 => "klmpqrs",
-        2 => "ijlmpqrs",
-        _ => return None,
-    };
-    let usable: Vec<char> = wanted.chars().filter(|l| !is_coordinate(l)).collect();
-    usable.get(..shape.rank()).map(<[char]>::to_vec)
-}
-
 fn name_of(name: &str, free: &[char]) -> String {
     match free {
         [] => name.to_owned(),
         _ => format!("{name}_{}", free.iter().collect::<String>()),
     }
-}
-
-/// The components of a coefficient in the order of those of the field.
-pub(super) fn components(scope: &Scope, value: &Node, shape: Shape, free: &[char]) -> Vec<Expr> {
-    let d = scope.space.dimensions();
-    let all = Tensor {
-        rank: free.len(),
-        components: scope.components(value, free),
-    };
-    let own = shape.components(d).into_iter();
-    own.filter_map(|(indices, _)| all.at(&indices, d)).collect()
 }
 
 /// The natural conditions on a piece; `None` where the densities have no short form there.

@@ -205,3 +205,23 @@ pub(crate) fn are_eigenvalues(found: &[(f64, f64)], expected: &[(f64, f64)], par
         assert_eq!(count, 1, "{re} {im}: {found:?}");
     }
 }
+
+/// A disc that rolls on a plane, θ its lean, A and Cc its moments across and along the axis, with further parameters and motions.
+pub(crate) fn disc(parameters: &str, motions: &str) -> String {
+    format!(
+        r#"
+coordinates = ["x", "y", "phi", "theta", "psi"]
+parameters = {{ m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, {parameters} }}
+[define]
+cx = "x + r sin(phi) sin(theta)"
+cy = "y - r cos(phi) sin(theta)"
+cz = "r cos(theta)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
+V = "m g cz"
+[constraints]
+roll_x = "x' = r psi' cos(phi)"
+roll_y = "y' = r psi' sin(phi)"
+{motions}"#
+    )
+}

@@ -6,7 +6,7 @@
     reason = "test code fails where it stands; values have the digits of their source"
 )]
 
-use crate::common::Case;
+use crate::common::{disc, Case};
 use chetaev_stability::characteristic::Characteristic;
 use chetaev_stability::eigenvalues::eigenvalues;
 use chetaev_stability::expansion::Expansion;
@@ -222,26 +222,13 @@ fn eigenvalues_of_the_bicycle() {
     }
 }
 
-const DISC: &str = r#"
-coordinates = ["x", "y", "phi", "theta", "psi"]
-parameters = { m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, v = 2, Om = 6 }
-[define]
-cx = "x + r sin(phi) sin(theta)"
-cy = "y - r cos(phi) sin(theta)"
-cz = "r cos(theta)"
-[lagrangian]
-T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
-V = "m g cz"
-[constraints]
-roll_x = "x' = r psi' cos(phi)"
-roll_y = "y' = r psi' sin(phi)"
-"#;
+const OF_DISC: &str = "v = 2, Om = 6";
 
 /// λ² (λ² + W), W = (C (C + m r²) v²/r² − A m g r)/(A (A + m r²)) rolling straight, Ω² − m g r/(A + m r²) spinning upright (Routh 1905). Two
 /// zeros belong to the family of both.
 #[test]
 fn the_disc_that_rolls_or_spins_upright() {
-    let case = Case::new(DISC);
+    let case = Case::new(&disc(OF_DISC, ""));
     let cases = [
         ("psi'", "v/r", "phi'", "v", 40.38),
         ("phi'", "Om", "psi'", "Om", 16.38),
@@ -279,7 +266,7 @@ fn the_disc_that_rolls_or_spins_upright() {
 /// A steady circle: the lean is constant, heading and spin run on; the contact moves on a circle, so that neither x' nor y' is constant.
 #[test]
 fn the_disc_on_a_circle_is_steady() {
-    let case = Case::new(DISC);
+    let case = Case::new(&disc(OF_DISC, ""));
     // With theta = lean, b = 0 is one equation between phi' and psi'; sin and cos of the lean are rational here.
     let lean = "asin(3/5)";
     let unsteady = case.motion(&[

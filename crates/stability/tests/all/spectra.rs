@@ -6,7 +6,7 @@
     reason = "test code fails where it stands; values have the digits of their source"
 )]
 
-use crate::common::{are_eigenvalues, Case};
+use crate::common::{are_eigenvalues, disc, Case};
 use crate::reference::{spinning, tippe_top, CASTER};
 use crate::verdicts::{gyroscopic, stone, triangular, TOP};
 
@@ -326,27 +326,15 @@ fn gyroscopic_pairs() {
 #[test]
 fn a_disc_on_a_circle() {
     let spin = "(-m g r sin(0.3) + A W^2 sin(0.3) cos(0.3))/((Cc + m r^2) W cos(0.3)) - W sin(0.3)";
-    let case = Case::new(&format!(
-        r#"
-coordinates = ["x", "y", "phi", "theta", "psi"]
-parameters = {{ m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, W = 2 }}
-[define]
-cx = "x + r sin(phi) sin(theta)"
-cy = "y - r cos(phi) sin(theta)"
-cz = "r cos(theta)"
-[lagrangian]
-T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
-V = "m g cz"
-[constraints]
-roll_x = "x' = r psi' cos(phi)"
-roll_y = "y' = r psi' sin(phi)"
-[steady.circle]
+    let motion = format!(
+        r#"[steady.circle]
 theta = 0.3
 "theta'" = 0
 "phi'" = "W"
 "psi'" = "{spin}"
 "#
-    ));
+    );
+    let case = Case::new(&disc("W = 2", &motion));
     let motion = case.named("circle");
     let values = case.system.parameter_values();
     let own = case

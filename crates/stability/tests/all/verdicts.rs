@@ -6,7 +6,7 @@
     reason = "test code fails where it stands; values have the digits of their source"
 )]
 
-use crate::common::Case;
+use crate::common::{disc, Case};
 use chetaev_symbolic::Verdict;
 
 /// The numbers in a condition.
@@ -68,21 +68,9 @@ fn the_sleigh() {
 /// Stable, and never asymptotically, where ω² > A m g r/(C (C + m r²)), and Ω² > m g r/(A + m r²) (Routh 1905).
 #[test]
 fn the_disc() {
-    let case = Case::new(
-        r#"
-coordinates = ["x", "y", "phi", "theta", "psi"]
-parameters = { m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, w = 2, Om = 6 }
-[define]
-cx = "x + r sin(phi) sin(theta)"
-cy = "y - r cos(phi) sin(theta)"
-cz = "r cos(theta)"
-[lagrangian]
-T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
-V = "m g cz"
-[constraints]
-roll_x = "x' = r psi' cos(phi)"
-roll_y = "y' = r psi' sin(phi)"
-[steady.rolling]
+    let case = Case::new(&disc(
+        "w = 2, Om = 6",
+        r#"[steady.rolling]
 theta = 0
 "theta'" = 0
 "psi'" = "w"
@@ -93,7 +81,7 @@ theta = 0
 "phi'" = "Om"
 "psi'" = 0
 "#,
-    );
+    ));
     let weight: f64 = 1.5 * 9.81 * 0.4;
     let cases = [
         ("rolling", (0.06 * weight / (0.12 * (0.12 + 0.24))).sqrt()),
