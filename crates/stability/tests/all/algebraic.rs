@@ -166,3 +166,21 @@ y = { guess = 0.1 }
         assert!(said.starts_with(expected), "{motion}: {said}");
     }
 }
+
+/// V' = sin θ − 2 cos 2θ vanishes at θ = 0.6348… with cos θ algebraic, where sin(acos(…)) is not seen to cancel: that is not decided, and no rate.
+#[test]
+fn a_rate_that_is_not_seen_to_vanish_is_open() {
+    let case = Case::new(
+        r#"
+coordinates = ["th"]
+[lagrangian]
+L = "1/2 th'^2 + cos(th) + sin(2 th)"
+[steady.a]
+th = { guess = 0.7 }
+"th'" = 0
+"#,
+    );
+    let said = case.said("stability.spectral", "a");
+    assert!(!said.contains("is not steady"), "{said}");
+}
+
