@@ -183,4 +183,3 @@ th = { guess = 0.7 }
     let said = case.said("stability.spectral", "a");
     assert!(!said.contains("is not steady"), "{said}");
 }
-
