@@ -17,20 +17,24 @@ use chetaev_orbits::solution::solution;
 use chetaev_orbits::{Flow, OrbitError};
 use nalgebra::DMatrix;
 
-/// Kapitza's pendulum stands upright above Ω = 99.260834704…, where the leading order says √(2 g l)/a = 99.0454 (−4 g/(l Ω²) = a₀(2 a/l), McLachlan
-/// 1947): a multiplier passes 1 there.
-#[test]
-fn kapitza() {
-    let (flow, read) = flow(
+/// Kapitza's pendulum upright: its pivot is shaken as a cos Ωt.
+fn kapitza(a: &str, rate: &str) -> String {
+    format!(
         r#"
 coordinates = ["theta"]
-parameters = { l = 0.2, a = 0.02, g = 9.81, Omega = 90 }
+parameters = {{ l = 0.2, a = {a}, g = 9.81, Omega = {rate} }}
 [lagrangian]
 T = "1/2 l^2 theta'^2 + l a Omega sin(Omega t) sin(theta) theta'"
 V = "g l cos(theta)"
-"#,
-        &[("theta", 0.0), ("theta'", 0.0)],
-    );
+"#
+    )
+}
+
+/// Kapitza's pendulum stands upright above Ω = 99.260834704…, where the leading order says √(2 g l)/a = 99.0454 (−4 g/(l Ω²) = a₀(2 a/l), McLachlan
+/// 1947): a multiplier passes 1 there.
+#[test]
+fn kapitza_from_a_rate_on() {
+    let (flow, read) = flow(&kapitza("0.02", "90"), &[("theta", 0.0), ("theta'", 0.0)]);
     assert_eq!(flow.is_turning, [true, false]);
     let omega = flow.graph.intern_symbol("Omega", 0);
     let period = read("2 pi/Omega");
@@ -60,16 +64,7 @@ V = "g l cos(theta)"
 /// equation with q = 2 a/l = 1 (McLachlan 1947), where a multiplier passes 1 and −1. With a = 0.02 there is no upper rate: b₁(0.2) = 0.795… is positive.
 #[test]
 fn kapitza_between_two_rates() {
-    let (flow, read) = flow(
-        r#"
-coordinates = ["theta"]
-parameters = { l = 0.2, a = 0.1, g = 9.81, Omega = 30 }
-[lagrangian]
-T = "1/2 l^2 theta'^2 + l a Omega sin(Omega t) sin(theta) theta'"
-V = "g l cos(theta)"
-"#,
-        &[("theta", 0.0), ("theta'", 0.0)],
-    );
+    let (flow, read) = flow(&kapitza("0.1", "30"), &[("theta", 0.0), ("theta'", 0.0)]);
     let omega = flow.graph.intern_symbol("Omega", 0);
     let mut orbits = Shooting::new(&flow, Some(omega), Some(read("2 pi/Omega"))).unwrap();
     let found = follow(&mut orbits, (&[0.0, 0.0], 30.0), (15.0, 60.0), points(500)).unwrap();
