@@ -119,30 +119,28 @@ impl Asked<'_> {
 
     /// A lower bound of the square of the distance of a motion from the guesses, by the variables that are enclosed.
     fn least_distance(&self, set: &SteadySet, own: &Found) -> f64 {
+        let coordinates = self.system.coordinates.iter().enumerate();
+        let places = coordinates.flat_map(|(j, c)| [((j, 0), c.q), ((j, 1), c.v)]);
+        let guessed = places.filter(|(place, _)| self.motion.guesses.contains(place));
+        let guessed: Vec<Expr> = guessed.map(|own| own.1).collect();
         let stated = self.stated();
-        let mut least = 0.0;
-        for (name, value) in set.variables.iter().zip(&own.values) {
-            let coordinates = self.system.coordinates.iter().enumerate();
-            let guessed = coordinates.flat_map(|(j, c)| [((j, 0), c.q), ((j, 1), c.v)]);
-            let mut guessed = guessed.filter(|(place, _)| self.motion.guesses.contains(place));
-            let speed = set.speeds.iter().find(|(speed, _)| speed == name);
-            let is_variable = |e: Expr| {
-                let is_named = self.system.graph.text(e) == *name;
-                is_named || speed.is_some_and(|own| own.1 == e)
-            };
+        let apart = |(name, value): (&String, &Value)| {
             let Value::Number { ball, .. } = value else {
-                continue;
+                return None;
             };
-            let Some((_, e)) = guessed.find(|&(_, e)| is_variable(e)) else {
-                continue;
-            };
-            let guess = stated.iter().find(|own| own.0 == e);
-            if let Some(guess) = guess.and_then(|own| self.number(own.1)) {
-                let apart = ball.to_f64() - guess;
-                least += apart * apart * (1.0 - SAME);
-            }
-        }
-        least
+            let variable = self.variable(set, name).filter(|e| guessed.contains(e))?;
+            let guess = stated.iter().find(|own| own.0 == variable)?;
+            Some(ball.to_f64() - self.number(guess.1)?)
+        };
+        let all = set.variables.iter().zip(&own.values).filter_map(apart);
+        all.map(|apart| apart * apart * (1.0 - SAME)).sum()
+    }
+
+    /// The coordinate or speed of a name.
+    fn variable(&self, set: &SteadySet, name: &str) -> Option<Expr> {
+        let coordinate = self.system.coordinates.iter().find(|c| c.name == name);
+        let speed = set.speeds.iter().find(|(speed, _)| speed == name);
+        coordinate.map(|c| c.q).or(speed.map(|(_, e)| *e))
     }
 
     /// The motion with the values of a steady motion, or of the member of a family that has the stated values for its free parameters, and the
@@ -150,10 +148,7 @@ impl Asked<'_> {
     fn member(&self, set: &SteadySet, own: &Found) -> Option<(f64, SteadyMotion)> {
         let (g, stated) = (&self.system.graph, self.stated());
         let free = own.free.iter().map(|&(symbol, at)| {
-            let name = &set.variables[at];
-            let coordinate = self.system.coordinates.iter().find(|c| c.name == *name);
-            let speed = set.speeds.iter().find(|(speed, _)| speed == name);
-            let variable = coordinate.map(|c| c.q).or(speed.map(|(_, e)| *e))?;
+            let variable = self.variable(set, &set.variables[at])?;
             Some((symbol, g.substitute(variable, &stated)))
         });
         let free: Vec<(Expr, Expr)> = free.collect::<Option<_>>()?;
