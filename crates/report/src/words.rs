@@ -21,6 +21,11 @@ impl Language {
             Language::English => &ENGLISH,
         }
     }
+
+    /// The title of the claims of a part of the theory, by the word before the dot of their ids.
+    pub fn title_of_claims(self, part: &str) -> Option<&'static str> {
+        look_up(self.words().groups, &part)
+    }
 }
 
 /// The words of the static part of the page.
@@ -313,9 +318,11 @@ static ENGLISH: Words = Words {
         ("measure", "Invariant measure"),
         ("functional", "Functionals"),
         ("motion", "The computed motion"),
+        ("equilibrium", "States of rest"),
         ("steady", "Steady motions"),
         ("stability", "Stability"),
         ("order", "Constraints of higher order"),
+        ("mass", "Variable mass"),
         ("equations", "Equations that the model states"),
     ],
     leads: &[

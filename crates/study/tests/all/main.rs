@@ -7,3 +7,4 @@ mod linear;
 mod multiplicity;
 mod steady;
 mod steps;
+mod titles;
