@@ -8,6 +8,7 @@ use chetaev_mechanics::{MotionTerms, SteadyMotion, System};
 use chetaev_symbolic::polynomial::normal_form::normal_form;
 use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::zero::separation::vanishes;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// A state with all velocities.
@@ -129,10 +130,15 @@ pub(crate) fn closed(g: &Graph, e: Expr) -> Expr {
     if g.as_number(e).is_some() {
         return e;
     }
-    match normal_form(g, e, &Budget::PROOF) {
+    let form = match normal_form(g, e, &Budget::PROOF) {
         Ok(form) if form.is_zero() => g.zero(),
         Ok(form) => form.to_expr(),
         Err(_) => simplify(g, e, &Options::default()),
+    };
+    // Numbers of several roots vanish by no form, as √2 + √3 − √(5 + 2√6) does.
+    match vanishes(g, form) {
+        Some(true) => g.zero(),
+        _ => form,
     }
 }
 

@@ -3,7 +3,8 @@
 //! At random values of all generators but one a polynomial becomes one in that generator over a prime field; its factors there are
 //! gathered into two coprime halves, these are lifted to power series in the others (Hensel's lemma, degree by degree), and
 //! a division over the integers decides (D. R. Musser, J. ACM 22, 1975; P. S. Wang, Math. Comp. 32, 1978). A true factor is found whenever its
-//! coefficients fit the prime, which is checked beforehand; so what is not taken apart is irreducible.
+//! coefficients fit the prime, which is checked beforehand, or in one generator a power of it ([`p_adic`]); so what is not taken apart is
+//! irreducible.
 
 use std::collections::BTreeMap;
 
@@ -12,6 +13,7 @@ use dashu_int::IBig;
 
 use super::budget::{Meter, TooLarge};
 use super::monomial::Monomial;
+use super::p_adic;
 use super::sparse::Polynomial;
 use super::univariate::trim;
 use crate::number::modular_polynomial::{factors, inverse_modulo, product, quotient_and_remainder};
@@ -23,6 +25,9 @@ const POINTS: usize = 12;
 
 /// More coefficients of power series are not computed.
 const COEFFICIENTS: usize = 20_000;
+
+/// Residues of the prime are integers of fewer bits.
+const BITS_OF_PRIME: usize = 61;
 
 /// More factors at a point are not gathered in all ways.
 const MOST_FACTORS: usize = 12;
@@ -64,7 +69,7 @@ fn two_factors(p: &Polynomial, meter: &Meter) -> Result<Option<[Polynomial; 2]>,
     let Some(field) = meter.field(0) else {
         return Ok(None);
     };
-    let bits = bits_of_factors(p, main, meter)?;
+    let bits = bits_of_factors(p, main);
     let others: Vec<usize> = generators.into_iter().filter(|&g| g != main).collect();
     let mut random = Random::new(0x5eed);
     let mut best: Option<(Vec<Residue>, Vec<Vec<Residue>>)> = None;
@@ -94,7 +99,7 @@ fn two_factors(p: &Polynomial, meter: &Meter) -> Result<Option<[Polynomial; 2]>,
             limit: MOST_FACTORS as u32,
         });
     };
-    let lifting = Lifting::new(p, main, others, (point, bits), field, meter)?;
+    let lifting = Halves::new(p, main, others, (point, bits), field, meter)?;
     // Each way to gather them in two halves once: the first factor belongs to the first half.
     for choice in 0..(1_usize << (own.len() - 1)) - 1 {
         let is_first = |i: usize| i == 0 || choice >> (i - 1) & 1 == 1;
@@ -119,23 +124,62 @@ fn with_positive_lead(p: Polynomial) -> Polynomial {
     }
 }
 
+/// How two coprime halves at a point become a factor.
+enum Halves {
+    /// By series in the other generators.
+    Series(Lifting),
+    /// By powers of the prime: there are no others.
+    Numbers(p_adic::Lifting),
+}
+
+impl Halves {
+    /// # Errors
+    /// [`TooLarge`] where coefficients might not fit, or series have too many.
+    fn new(
+        p: &Polynomial,
+        main: usize,
+        others: Vec<usize>,
+        (point, bits): (Vec<Residue>, usize),
+        field: PrimeField,
+        meter: &Meter,
+    ) -> Result<Halves, TooLarge> {
+        if !others.is_empty() {
+            if bits >= BITS_OF_PRIME {
+                meter.check_bits(usize::MAX)?;
+            }
+            let lifting = Lifting::new(p, main, others, (point, bits), field, meter)?;
+            return Ok(Halves::Series(lifting));
+        }
+        meter.check_bits(bits)?;
+        let lifting = p_adic::Lifting::new(p, main, bits, field);
+        lifting
+            .map(Halves::Numbers)
+            .ok_or(TooLarge::Bits { limit: bits })
+    }
+
+    fn factor(
+        &self,
+        first: &Dense,
+        second: &Dense,
+        meter: &Meter,
+    ) -> Result<Option<Polynomial>, TooLarge> {
+        match self {
+            Halves::Series(lifting) => lifting.factor(first, second, meter),
+            Halves::Numbers(lifting) => lifting.factor(first, second, meter),
+        }
+    }
+}
+
 /// How many bits the coefficients of a factor times a factor of the leading coefficient may have: at most `2^(Σ d_i)` times the norm of a polynomial
 /// of the degrees d_i that it divides, here the product with the leading coefficient (K. Mahler, J. London Math. Soc. 37, 1962).
-///
-/// # Errors
-/// [`TooLarge`] where they might not fit the prime.
-fn bits_of_factors(p: &Polynomial, main: usize, meter: &Meter) -> Result<usize, TooLarge> {
+fn bits_of_factors(p: &Polynomial, main: usize) -> usize {
     let lead = p.leading_coefficient_in(main);
     let degrees = |p: &Polynomial| -> usize {
         let generators = p.generators().into_iter();
         generators.map(|g| usize::from(p.degree_in(g))).sum()
     };
     let norm = |p: &Polynomial| p.coefficient_bits() + p.len().ilog2() as usize + 1;
-    let bits = degrees(p) + degrees(&lead) + norm(p) + norm(&lead);
-    match bits < 61 {
-        true => Ok(bits),
-        false => meter.check_bits(usize::MAX).map(|()| bits),
-    }
+    degrees(p) + degrees(&lead) + norm(p) + norm(&lead)
 }
 
 /// Coefficients in one generator, ascending.

@@ -16,6 +16,7 @@ mod gcd;
 mod irreducible;
 mod monomial;
 pub mod normal_form;
+mod p_adic;
 mod rational_function;
 mod sparse;
 mod triangular;

@@ -340,6 +340,31 @@ fn products_of_three_come_apart_into_irreducible_factors() {
     }
 }
 
+/// Factors of one generator whose coefficients are longer than any prime used: (10³⁰ x² + 7 x − 10²⁵)(x − 1)(3 x³ + 10⁴⁰), and the
+/// irreducible x⁴ + 2·3⁸⁰ (x + 1), by Eisenstein's criterion at 2.
+#[test]
+fn long_coefficients_hide_no_factor() {
+    let m = meter();
+    let ten = |n: usize| Polynomial::constant(IBig::from(10).pow(n));
+    let power = |n: u32| x(0).pow(n, &m).unwrap();
+    let quadratic = product(&[&ten(30), &power(2)])
+        .add(&x(0).scale(&IBig::from(7)))
+        .sub(&ten(25));
+    let cubic = power(3).scale(&IBig::from(3)).add(&ten(40));
+    let linear = x(0).sub(&int(1));
+    let all = [linear, quadratic, cubic];
+    let found = product(&[&all[0], &all[1], &all[2]])
+        .irreducible_factors(&m)
+        .unwrap();
+    assert_eq!(found, all.map(|p| (p, 1)).to_vec());
+    let odd = IBig::from(3).pow(80) * IBig::from(2);
+    let eisenstein = power(4)
+        .add(&x(0).scale(&odd))
+        .add(&Polynomial::constant(odd));
+    let found = eisenstein.irreducible_factors(&m).unwrap();
+    assert_eq!(found, vec![(eisenstein, 1)]);
+}
+
 #[test]
 fn irreducible_polynomials_stay_and_random_products_come_apart() {
     let m = meter();

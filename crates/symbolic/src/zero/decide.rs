@@ -208,6 +208,10 @@ impl Case<'_> {
         };
         match exact {
             Exact::Zero => self.confirm(&program, outcome),
+            Exact::Separated => {
+                let detail = "each number is enclosed closer to zero than any number of its degree and size but zero can be";
+                Verdict::Proved(Proof::exact(place(self.test, &program.conditions), detail))
+            }
             Exact::Undefined => Verdict::undecided(
                 "the expression is nowhere defined: a denominator vanishes identically",
             ),

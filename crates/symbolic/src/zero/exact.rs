@@ -1,6 +1,7 @@
-//! The exact way: rational normal forms, within a budget.
+//! The exact way: rational normal forms, within a budget, and separation bounds of numbers.
 
 use super::assumptions::Assumptions;
+use super::separation::vanishes;
 use super::signs::Signs;
 use crate::graph::Graph;
 use crate::node::{Expr, Node};
@@ -12,6 +13,8 @@ use crate::polynomial::Budget;
 pub(super) enum Exact {
     /// Zero, exactly.
     Zero,
+    /// Numbers that are zero though no form shows it, by a separation bound.
+    Separated,
     /// A denominator vanishes identically.
     Undefined,
     /// Not zero in its field, or too large.
@@ -52,6 +55,7 @@ pub(super) fn decide(graph: &Graph, residuals: &[Expr], assumptions: &Assumption
     match normal_forms(graph, residuals, &options) {
         Ok((_, values)) if values.iter().all(|value| value.is_zero()) => Exact::Zero,
         Err(NormalFormError::Undefined) => Exact::Undefined,
+        _ if residuals.iter().all(|&e| vanishes(graph, e) == Some(true)) => Exact::Separated,
         _ => Exact::Open,
     }
 }

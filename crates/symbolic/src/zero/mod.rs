@@ -9,6 +9,7 @@
 //! * [`rank`]: generic ranks and regularity of matrices, by the same means.
 //! * [`points`]: values at random points of prime fields, for linear algebra over functions.
 //! * [`enclose`]: evaluation in balls, also for its own sake.
+//! * [`separation`]: is a number of roots and algebraic numbers zero?
 
 mod approach;
 pub mod assumptions;
@@ -29,6 +30,7 @@ mod program;
 pub mod rank;
 mod refute;
 mod ring;
+pub mod separation;
 mod signs;
 mod size;
 mod straighten;
