@@ -17,29 +17,36 @@ pub fn eigenvalues(left: &[Vec<f64>], right: &[Vec<f64>]) -> Option<Vec<Complex<
 pub struct Known {
     /// How many are zero.
     pub zeros: usize,
-    /// Polynomials with simple zeros, the constant coefficient first, each with how often its zeros are eigenvalues.
-    pub multiple: Vec<(Vec<f64>, usize)>,
+    /// Others that were enclosed, as often as they are eigenvalues.
+    pub others: Vec<Complex<f64>>,
 }
 
-/// The same where something is known exactly of them: zeros are so to the last digit, and those that are multiple are the same as often as that. An
+impl Known {
+    /// Whether no eigenvalue of a system with so many variables is left to be computed.
+    pub fn is_all_of(&self, variables: usize) -> bool {
+        self.zeros + self.others.len() == variables
+    }
+}
+
+/// The same where something is known exactly of them: zeros are so to the last digit, and of the others those nearest to known ones are these. An
 /// eigenvalue of a chain of length k is computed to the k-th root of rounding alone.
 pub fn as_known(left: &[Vec<f64>], right: &[Vec<f64>], known: &Known) -> Option<Vec<Complex<f64>>> {
-    let Balanced { matrix, unit, .. } = balanced(&matrix(left, right)?);
-    let others = beside_zeros(&matrix, known.zeros)?;
-    let zeros = matrix.nrows() - others.nrows();
-    let mut others = spectrum(&(others * unit))?;
-    let mut found = vec![Complex::new(0.0, 0.0); zeros];
-    for (polynomial, multiplicity) in &known.multiple {
-        for root in zeros_of(polynomial)? {
-            for _ in 0..*multiplicity {
-                let places = (0..others.len()).map(|at| (at, (others[at] - root).norm()));
-                let nearest = places.min_by(|a, b| a.1.total_cmp(&b.1));
-                nearest.map(|(at, _)| others.swap_remove(at));
-                found.push(root);
-            }
+    let zero = Complex::new(0.0, 0.0);
+    let mut found = known.others.clone();
+    if known.is_all_of(left.len()) {
+        found.extend(vec![zero; known.zeros]);
+    } else {
+        let Balanced { matrix, unit, .. } = balanced(&matrix(left, right)?);
+        let others = beside_zeros(&matrix, known.zeros)?;
+        found.extend(vec![zero; matrix.nrows() - others.nrows()]);
+        let mut others = spectrum(&(others * unit))?;
+        for own in &known.others {
+            let places = (0..others.len()).map(|at| (at, (others[at] - own).norm()));
+            let nearest = places.min_by(|a, b| a.1.total_cmp(&b.1));
+            nearest.map(|(at, _)| others.swap_remove(at));
         }
+        found.extend(others);
     }
-    found.extend(others);
     found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
     Some(found)
 }

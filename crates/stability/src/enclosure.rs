@@ -3,14 +3,14 @@
 //! Within the distance `m |p(z)/p'(z)|` of any z a polynomial of degree m has a zero (Laguerre 1880); Newton's method makes it small, and
 //! both values are computed with balls.
 
-use crate::eigenvalues::spectrum;
+use crate::complex_zeros::{Arithmetic, Complex};
+use crate::eigenvalues::zeros_of;
 use crate::isolation::Root;
 use crate::real_roots::ball;
 use crate::spectrum::Polynomial;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
-use nalgebra::DMatrix;
 
 /// Bits of the enclosures.
 const BITS: usize = 256;
@@ -67,13 +67,6 @@ struct Numbers {
     coefficients: Vec<Ball>,
 }
 
-/// A complex number.
-#[derive(Clone)]
-struct Complex {
-    re: Ball,
-    im: Ball,
-}
-
 impl Numbers {
     fn new(g: &Graph, own: &[Expr], at: Option<(Symbol, &RBig)>) -> Option<Numbers> {
         let precision = Precision::new(BITS);
@@ -95,22 +88,17 @@ impl Numbers {
         if start.0 <= 0.0 {
             return None;
         }
-        let mut z = Complex {
-            re: Ball::from_f64(start.0)?,
-            im: Ball::from_f64(start.1)?,
-        };
+        let own = Arithmetic(&self.precision);
+        let mut z = Complex::from_f64(start)?;
         for _ in 0..STEPS {
-            let (value, slope) = self.at(&z)?;
-            let step = self.quotient(&value, &slope)?;
-            z = Complex {
-                re: self.precision.sub(&z.re, &step.re).ok()?.midpoint(),
-                im: self.precision.sub(&z.im, &step.im).ok()?.midpoint(),
-            };
+            let (value, slope) = own.at(&self.coefficients, &z)?;
+            let step = own.quotient(&value, &slope)?;
+            z = own.difference(&z, &step)?.midpoint();
         }
-        let (value, slope) = self.at(&z)?;
-        let step = self.quotient(&value, &slope)?;
+        let (value, slope) = own.at(&self.coefficients, &z)?;
+        let step = own.quotient(&value, &slope)?;
         let degree = Ball::integer(self.coefficients.len() as i64 - 1);
-        let radius = self.precision.mul(&self.size(&step)?, &degree).ok()?;
+        let radius = self.precision.mul(&own.size(&step)?, &degree).ok()?;
         let about = |x: &Ball| x.clone().widened(radius.magnitude());
         let (re, im) = (about(&z.re), about(&z.im));
         let is_right = re.sign() == Some(std::cmp::Ordering::Greater);
@@ -126,72 +114,8 @@ impl Numbers {
     /// The zero with the largest real part in double precision, from the companion matrix.
     fn approximate(&self) -> Option<(f64, f64)> {
         let list: Vec<f64> = self.coefficients.iter().map(Ball::to_f64).collect();
-        let (leading, rest) = list.split_last()?;
-        let n = rest.len();
-        if n == 0 || *leading == 0.0 {
-            return None;
-        }
-        let entry = |r: usize, c: usize| match (c + 1 == n, r == c + 1) {
-            (true, _) => -rest[r] / leading,
-            (false, true) => 1.0,
-            (false, false) => 0.0,
-        };
-        let matrix = DMatrix::from_fn(n, n, entry);
-        let found = spectrum(&matrix)?;
+        let found = zeros_of(&list)?;
         let largest = found.iter().max_by(|a, b| a.re.total_cmp(&b.re))?;
         Some((largest.re, largest.im))
-    }
-
-    /// Value and derivative.
-    fn at(&self, z: &Complex) -> Option<(Complex, Complex)> {
-        let zero = || Complex {
-            re: Ball::zero(),
-            im: Ball::zero(),
-        };
-        let (mut value, mut slope) = (zero(), zero());
-        for coefficient in self.coefficients.iter().rev() {
-            slope = self.sum(&self.product(&slope, z)?, &value)?;
-            value = self.product(&value, z)?;
-            value.re = self.precision.add(&value.re, coefficient).ok()?;
-        }
-        Some((value, slope))
-    }
-
-    fn sum(&self, a: &Complex, b: &Complex) -> Option<Complex> {
-        Some(Complex {
-            re: self.precision.add(&a.re, &b.re).ok()?,
-            im: self.precision.add(&a.im, &b.im).ok()?,
-        })
-    }
-
-    fn product(&self, a: &Complex, b: &Complex) -> Option<Complex> {
-        let p = &self.precision;
-        let times = |x: &Ball, y: &Ball| p.mul(x, y).ok();
-        Some(Complex {
-            re: p.sub(&times(&a.re, &b.re)?, &times(&a.im, &b.im)?).ok()?,
-            im: p.add(&times(&a.re, &b.im)?, &times(&a.im, &b.re)?).ok()?,
-        })
-    }
-
-    fn quotient(&self, a: &Complex, b: &Complex) -> Option<Complex> {
-        let p = &self.precision;
-        let conjugate = Complex {
-            re: b.re.clone(),
-            im: b.im.neg(),
-        };
-        let above = self.product(a, &conjugate)?;
-        let below = self.product(b, &conjugate)?.re;
-        Some(Complex {
-            re: p.div(&above.re, &below).ok()?,
-            im: p.div(&above.im, &below).ok()?,
-        })
-    }
-
-    fn size(&self, a: &Complex) -> Option<Ball> {
-        let p = &self.precision;
-        let square = |x: &Ball| p.mul(x, x).ok();
-        let sum = p.add(&square(&a.re)?, &square(&a.im)?).ok()?;
-        // What rounds below zero is zero.
-        p.sqrt(&p.abs(&sum)).ok()
     }
 }

@@ -20,7 +20,7 @@ impl Expansion<'_> {
     }
 
     /// The dimension of an affine space of steady motions through this one, and that of the kernel of the linear equations, which it cannot exceed:
-    /// all of the kernel is tried, then each of its basis vectors.
+    /// all of the kernel is tried, then one vector of its basis after the other.
     fn straight_family(&self, slopes: &[Vec<Expr>]) -> (usize, usize) {
         let g = self.graph();
         let mut rows = slopes.to_vec();
@@ -30,16 +30,17 @@ impl Expansion<'_> {
             return (0, vectors.len());
         }
         let is_whole = self.is_steady_along(&vectors);
-        let found = if is_whole {
-            vectors.len()
-        } else {
-            usize::from(
-                vectors
-                    .iter()
-                    .any(|v| self.is_steady_along(std::slice::from_ref(v))),
-            )
-        };
-        (found, vectors.len())
+        if is_whole {
+            return (vectors.len(), vectors.len());
+        }
+        let mut kept: Vec<Vec<Expr>> = Vec::new();
+        for own in &vectors {
+            kept.push(own.clone());
+            if !self.is_steady_along(&kept) {
+                kept.pop();
+            }
+        }
+        (kept.len(), vectors.len())
     }
 
     /// Whether all motions whose variables differ by combinations of these vectors are steady and admissible.
@@ -88,7 +89,7 @@ impl Expansion<'_> {
         let values = |e: Expr| g.substitute(g.substitute(e, &self.controls(&[e])), &self.values);
         let mut equations: Vec<(Expr, Vec<Expr>)> = equations
             .into_iter()
-            .map(|(e, row)| (values(e), row))
+            .map(|(e, row)| self.without_powers(values(e), row))
             .collect();
         equations.sort_by_key(|(e, _)| g.reachable(&[*e]).len());
         let rows: Vec<Vec<Expr>> = equations.iter().map(|(_, row)| row.clone()).collect();
@@ -114,6 +115,22 @@ impl Expansion<'_> {
         } else {
             0
         }
+    }
+
+    /// An equation without slopes at the motion, with each of its factors once: a power has no slopes where it vanishes, and the same zeros.
+    fn without_powers(&self, e: Expr, row: Vec<Expr>) -> (Expr, Vec<Expr>) {
+        let (g, variables) = (self.graph(), self.variables());
+        if g.is_zero(e) || row.iter().any(|&slope| !g.is_zero(slope)) {
+            return (e, row);
+        }
+        let all = irreducible_factors(g, e, &variables).unwrap_or_default();
+        if all.iter().all(|own| own.1 == 1) {
+            return (e, row);
+        }
+        let once: Vec<Expr> = all.into_iter().map(|own| own.0).collect();
+        let once = g.mul(&once);
+        let slopes = self.at_rows(&g.jacobian(&[once], &variables)).remove(0);
+        (once, slopes)
     }
 
     /// The same equations near the motion: variables that are zero are left out, and so are factors that do not vanish at the motion, as x of

@@ -9,7 +9,8 @@
 //! 3. *What are the linear equations?* [`linearization`]: `E δz' = F δz`, exact in the parameters, on the tangent space of the finite
 //!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do, [`descriptor`] in all variables.
 //! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family split off; [`spectrum`]: its factors, those that are
-//!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] and [`singular`] in double precision, [`enclosure`] one that is proved.
+//!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] and [`singular`] in double precision,
+//!    `complex_zeros` all of them enclosed where the polynomial is known, [`enclosure`] one that is proved.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
 //!    [`real_roots`]; [`question`] puts it together; `about` keeps what is derived of a motion once, and `decision` decides a statement on it over the range of a parameter.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
@@ -29,6 +30,7 @@ pub mod bundle;
 pub mod characteristic;
 mod charts;
 pub mod claims;
+mod complex_zeros;
 mod critical;
 mod decision;
 pub mod descriptor;

@@ -3,7 +3,8 @@
 
 use crate::admissible_values::AdmissibleValues;
 use crate::characteristic::Characteristic;
-use crate::eigenvalues::Known;
+use crate::complex_zeros::zeros;
+use crate::eigenvalues::{Complex, Known};
 use crate::enclosure::is_right_of_axis_at;
 use crate::expansion::Expansion;
 use crate::hurwitz::{are_positive, determinants, ranges, ranges_within, Deciding, Ranges};
@@ -88,12 +89,13 @@ impl Question {
         polynomial.map_or(0, |own| own.zeros + own.further_zeros)
     }
 
-    /// What is known exactly of the eigenvalues at these values of the parameters: how many are zero, and which are multiple.
+    /// What is known exactly of the eigenvalues at these values of the parameters: how many are zero, and where the zeros
+    /// of its factors lie.
     pub fn known(&self, g: &Graph, values: &[(Expr, Expr)]) -> Known {
         let Some(polynomial) = &self.polynomial else {
             return Known {
                 zeros: self.linear.family,
-                multiple: Vec::new(),
+                others: Vec::new(),
             };
         };
         let there = polynomial.at(g, values);
@@ -103,14 +105,15 @@ impl Question {
         } else {
             Spectrum::of(g, &there)
         };
-        let multiple = spectrum.factors.into_iter().filter(|own| own.1 > 1);
-        let in_numbers = |(factor, power): (Vec<Expr>, u32)| {
-            let numbers = g.evaluate_f64(&factor, &|_| None).ok()?;
-            Some((numbers, power as usize))
-        };
+        let mut others = Vec::new();
+        for (factor, power) in spectrum.factors {
+            for (re, im) in zeros(g, &factor).unwrap_or_default() {
+                others.extend(vec![Complex::new(re, im); power as usize]);
+            }
+        }
         Known {
             zeros: there.zeros + there.further_zeros,
-            multiple: multiple.filter_map(in_numbers).collect(),
+            others,
         }
     }
 

@@ -5,6 +5,7 @@
 pub(crate) struct Decimals {
     largest: f64,
     places: usize,
+    is_exact: bool,
 }
 
 /// Sizes of the largest number of a list that are printed without a power of ten.
@@ -21,7 +22,13 @@ impl Decimals {
         Decimals {
             largest: sizes.fold(0.0, f64::max),
             places: 6,
+            is_exact: false,
         }
+    }
+
+    /// For numbers that are known however small they are beside the others.
+    pub(crate) fn exact_if(self, is_exact: bool) -> Decimals {
+        Decimals { is_exact, ..self }
     }
 
     pub(crate) fn with_places(self, places: usize) -> Decimals {
@@ -29,41 +36,46 @@ impl Decimals {
     }
 
     /// A complex number.
-    pub(crate) fn complex(self, (re, im): (f64, f64)) -> String {
-        let (re, im) = (self.plain(re), self.plain(im));
-        let sign = if im < 0.0 { '-' } else { '+' };
-        match im {
-            0.0 => self.text(re),
-            im => format!("{}{sign}{}i", self.text(re), self.text(im.abs())),
+    pub(crate) fn complex(self, z: (f64, f64)) -> String {
+        self.known(z, self.error())
+    }
+
+    /// Parts that are not printed are smaller than this.
+    fn error(self) -> f64 {
+        match self.is_exact {
+            true => 0.0,
+            false => f64::INFINITY,
         }
     }
 
     /// A complex number that is known to an error: parts that are larger are no zeros, however small they are.
     pub(crate) fn known(self, (re, im): (f64, f64), error: f64) -> String {
-        let part = |x: f64| {
-            let is_hidden = self.is_usual() && self.plain(x) == 0.0 && x.abs() > error;
-            is_hidden.then(|| format!("{x:.2e}"))
-        };
-        match (part(re), part(im.abs())) {
-            (None, None) => self.complex((re, im)),
-            (real, _) if im == 0.0 => real.unwrap_or_default(),
-            (real, imaginary) => {
-                let sign = if im < 0.0 { '-' } else { '+' };
-                let real = real.unwrap_or_else(|| self.text(self.plain(re)));
-                let imaginary = imaginary.unwrap_or_else(|| self.text(im.abs()));
-                format!("{real}{sign}{imaginary}i")
-            }
+        let sign = if im < 0.0 { '-' } else { '+' };
+        let real = self.part(re, error).unwrap_or_else(|| self.text(0.0));
+        match self.part(im.abs(), error) {
+            None => real,
+            Some(im) => format!("{real}{sign}{im}i"),
         }
     }
 
     /// A complex number as it is typeset: `−0.33 + 2.1 i`.
     pub(crate) fn typeset(self, (re, im): (f64, f64)) -> String {
-        let (re, im) = (self.plain(re), self.plain(im));
         let sign = if im < 0.0 { '−' } else { '+' };
-        let real = self.text(re).replace('-', "−");
-        match im {
-            0.0 => real,
-            im => format!("{real} {sign} {} i", self.text(im.abs()).replace('-', "−")),
+        let part = |x: f64| Some(self.part(x, self.error())?.replace('-', "−"));
+        let real = part(re).unwrap_or_else(|| self.text(0.0));
+        match part(im.abs()) {
+            None => real,
+            Some(im) => format!("{real} {sign} {im} i"),
+        }
+    }
+
+    /// A real number; `None` where it is zero to an error, or as it would be printed.
+    fn part(self, x: f64, error: f64) -> Option<String> {
+        match (self.is_zero_in_print(x), x == 0.0 || x.abs() <= error) {
+            (false, _) => Some(self.text(x)),
+            (true, true) => None,
+            (true, false) if self.is_usual() => Some(format!("{x:.2e}")),
+            (true, false) => Some(self.text(x)),
         }
     }
 
@@ -80,18 +92,13 @@ impl Decimals {
         self.largest == 0.0 || USUAL.contains(&self.largest)
     }
 
-    /// No minus before what is zero as it is printed.
-    fn plain(self, x: f64) -> f64 {
-        let least = if self.is_usual() {
-            0.5 * 0.1_f64.powi(self.places as i32)
-        } else {
-            ROUNDED * self.largest
+    /// Whether a number has no digit in print but zeros.
+    fn is_zero_in_print(self, x: f64) -> bool {
+        let least = match self.is_usual() {
+            true => 0.5 * 0.1_f64.powi(self.places as i32),
+            false => ROUNDED * self.largest,
         };
-        if x.abs() < least {
-            0.0
-        } else {
-            x
-        }
+        x.abs() < least
     }
 }
 
@@ -145,6 +152,13 @@ mod tests {
         assert_eq!(own.known((1e-9, 0.0), 1e-14), "1.00e-9");
         assert_eq!(own.known((-1e-9, -2.0), 1e-14), "-1.00e-9-2.000000i");
         assert_eq!(own.known((1e-16, -2.0), 1e-14), "0.000000-2.000000i");
+        let own = own.exact_if(true);
+        assert_eq!(own.complex((1e-16, -2.0)), "1.00e-16-2.000000i");
+        assert_eq!(own.complex((0.0, 1e-20)), "0.000000+1.00e-20i");
+        assert_eq!(own.typeset((-1e-16, 0.0)), "−1.00e−16");
+        let own = Decimals::of([(1e8, 0.0)]).exact_if(true);
+        assert_eq!(own.complex((-1e-9, 0.0)), "-1.000000e-9");
+        assert_eq!(own.complex((-1e8, 0.0)), "-1.000000e8");
     }
 
     #[test]

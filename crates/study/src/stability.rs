@@ -77,6 +77,25 @@ pub struct Range {
     pub high: Rational,
 }
 
+impl Range {
+    /// The values of the parameter in the table, exact, so that -1/5 is written as -0.2.
+    fn rows(&self) -> impl Iterator<Item = Rational> + '_ {
+        (0..ROWS).map(|row| {
+            let part = Rational::from(row) / Rational::from(ROWS - 1);
+            &self.low + (&self.high - &self.low) * part
+        })
+    }
+}
+
+/// Eigenvalues as pairs of real and imaginary parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eigenvalues {
+    /// Ascending by real and then by imaginary part.
+    pub values: Vec<(f64, f64)>,
+    /// Whether all were enclosed and then rounded: each part has all digits, and is zero where it is printed so.
+    pub are_enclosed: bool,
+}
+
 /// An eigenvalue with its vector, complex numbers as pairs of real and imaginary parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
@@ -84,6 +103,8 @@ pub struct Mode {
     pub eigenvalue: (f64, f64),
     /// How often it is one: with fewer modes it has a Jordan block.
     pub multiplicity: usize,
+    /// Whether λ was enclosed and then rounded.
+    pub is_enclosed: bool,
     /// z, of length 1, its largest entry real and positive.
     pub vector: Vec<(f64, f64)>,
 }
@@ -103,6 +124,8 @@ pub struct Stability {
     pub ranges: Option<Ranges>,
     /// For each region, whether the motion is not real there.
     pub absent: Vec<bool>,
+    /// The same for the rows of the table.
+    absent_rows: Vec<bool>,
     /// The equations in state space.
     pub space: StateSpace,
     /// The equations in all variables, where they were asked for.
@@ -246,6 +269,8 @@ fn in_symbols(
                 let regions = ranges.iter().flat_map(|found: &Ranges| &found.regions);
                 let absent = regions.map(|own| question.is_absent(&about, &own.sample));
                 let absent = absent.collect();
+                let rows = range.iter().flat_map(Range::rows);
+                let absent_rows = rows.map(|at| question.is_absent(&about, &at)).collect();
                 return Ok(Stability {
                     motion: motion.clone(),
                     parts: Parts::of(&system.graph, &question.linear),
@@ -253,6 +278,7 @@ fn in_symbols(
                     range,
                     ranges,
                     absent,
+                    absent_rows,
                     space,
                     all,
                     running: about.running(),
@@ -583,16 +609,20 @@ impl Stability {
         let polynomial = self.question.polynomial.as_ref();
         let known = Known {
             zeros: polynomial.map_or(self.question.linear.family, |_| self.question.zeros()),
-            multiple: Vec::new(),
+            others: Vec::new(),
         };
         let found = self.complex_eigenvalues(free, &known)?;
         Some(found.iter().map(|l| (l.re, l.im)).collect())
     }
 
-    /// The same at an exact value, where all that is known of them is used: which are zero there, and which are multiple.
-    pub fn eigenvalues_at(&self, at: Option<Expr>) -> Option<Vec<(f64, f64)>> {
-        let found = self.complex_eigenvalues(self.number(at), &self.known(at))?;
-        Some(found.iter().map(|l| (l.re, l.im)).collect())
+    /// The same at an exact value, where all that is known of them is used: which are zero there, and which are enclosed.
+    pub fn eigenvalues_at(&self, at: Option<Expr>) -> Option<Eigenvalues> {
+        let known = self.known(at);
+        let found = self.complex_eigenvalues(self.number(at), &known)?;
+        Some(Eigenvalues {
+            values: found.iter().map(|l| (l.re, l.im)).collect(),
+            are_enclosed: known.is_all_of(self.question.linear.variables.len()),
+        })
     }
 
     fn complex_eigenvalues(&self, free: Option<f64>, known: &Known) -> Option<Vec<Complex<f64>>> {
@@ -633,7 +663,9 @@ impl Stability {
         let (at, linear) = (self.stated_exactly(), &self.question.linear);
         let stated = self.number(at);
         let [left, right] = [&linear.left, &linear.right].map(|rows| self.numbers(rows, stated));
-        let found = as_known(&left, &right, &self.known(at)).unwrap_or_default();
+        let known = self.known(at);
+        let is_enclosed = known.is_all_of(linear.variables.len());
+        let found = as_known(&left, &right, &known).unwrap_or_default();
         let found: Vec<Complex<f64>> = found.into_iter().filter(|l| l.im >= 0.0).collect();
         let sizes = found.iter().map(|l| l.norm());
         let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
@@ -643,26 +675,28 @@ impl Stability {
             let mode = move |vector: Vec<Complex<f64>>| Mode {
                 eigenvalue: pair(&l),
                 multiplicity,
+                is_enclosed,
                 vector: vector.iter().map(pair).collect(),
             };
             vectors.into_iter().map(mode)
         };
-        // Eigenvalues that are the same to rounding are one.
-        let found = distinct(&found, SAME * size).into_iter();
+        // Eigenvalues that are the same to rounding are one; enclosed ones have none.
+        let rounding = if is_enclosed { 0.0 } else { SAME * size };
+        let found = distinct(&found, rounding).into_iter();
         found.flat_map(with_modes).collect()
     }
 
-    fn table(&self, range: &Range) -> Vec<(f64, Vec<(f64, f64)>)> {
-        // Exact, so that -1/5 is written as -0.2.
-        let at = |row: usize| {
-            let part = Rational::from(row) / Rational::from(ROWS - 1);
-            &range.low + (&range.high - &range.low) * part
+    /// Eigenvalues at equally spaced values of the parameter; none where the motion is not real.
+    fn table(&self, range: &Range) -> Vec<(f64, Option<Eigenvalues>)> {
+        let row = |(row, at): (usize, Rational)| {
+            let value = at.to_f64().value();
+            if self.absent_rows.get(row) == Some(&true) {
+                return Some((value, None));
+            }
+            let list = self.eigenvalues_at(Some(self.graph().number(at)))?;
+            Some((value, Some(list)))
         };
-        let row = |at: Rational| {
-            let list = self.eigenvalues_at(Some(self.graph().number(at.clone())))?;
-            Some((at.to_f64().value(), list))
-        };
-        (0..ROWS).map(at).filter_map(row).collect()
+        range.rows().enumerate().filter_map(row).collect()
     }
 }
 

@@ -183,3 +183,23 @@ th = { guess = 0.7 }
     let said = case.said("stability.spectral", "a");
     assert!(!said.contains("is not steady"), "{said}");
 }
+
+/// The energy y² + 3 x⁴ + (√(5 + 2√6) − √2 − √3) x²/2 has no quadratic term in x, as both numbers are the same: rest is proved stable by the term of
+/// order 4, and no eigenvalue is right of the axis.
+#[test]
+fn a_stiffness_that_is_zero_by_no_form_is_zero() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 + y'^2)/2 - (sqrt(5 + 2 sqrt(6)) - sqrt(2) - sqrt(3)) x^2/2 - y^2 - 3 x^4"
+[steady.s]
+x = 0
+y = 0
+"x'" = 0
+"y'" = 0
+"#,
+    );
+    assert_eq!(case.said("stability.spectral", "s"), "proved");
+    assert_eq!(case.said("stability.nonlinear", "s"), "proved");
+    assert!(case.said("stability.linear", "s").starts_with("refuted"));
+}

@@ -151,7 +151,7 @@ impl Case {
         );
         let known = Known {
             zeros: linear.family,
-            multiple: Vec::new(),
+            others: Vec::new(),
         };
         let found = as_known(&left, &right, &known).unwrap();
         let found = found.iter().map(|l| (l.re, l.im));

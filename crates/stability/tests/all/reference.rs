@@ -583,3 +583,33 @@ wheel = "-X' sin(theta) + y' cos(theta) - e theta' = 0"
         assert_eq!(found.regions[0].is_left, is_stable);
     }
 }
+
+/// All of the circle x² + y² = 1, where an energy (x² + y² − 1)⁴ and all its slopes vanish, is at rest, at any speed of the ignorable z. Of x² y² (1 + z²)
+/// rest is where x = 0 or where y = 0, at any z: two planes through the origin, where all three directions have no stiffness.
+#[test]
+fn families_where_slopes_vanish_or_not_all_directions_are_steady() {
+    for (energy, at, count) in [
+        ("(x^2 + y^2 - 1)^4", ["3/5", "4/5"], 2),
+        ("(x^2 + y^2 - 1)^2 (2 + cos(x))", ["3/5", "-4/5"], 2),
+        ("x^2 y^2 (1 + z^2)", ["0", "0"], 2),
+        ("x^2 y^2 (1 + z^2)", ["1/3", "0"], 2),
+        ("x^2 + y^2 + z^4", ["0", "0"], 0),
+    ] {
+        let case = Case::new(&format!(
+            r#"
+coordinates = ["x", "y", "z"]
+lagrangian = "(x'^2 + y'^2 + z'^2)/2 - {energy}"
+"#
+        ));
+        let motion = case.motion(&[
+            ("x", at[0]),
+            ("y", at[1]),
+            ("z", "0"),
+            ("x'", "0"),
+            ("y'", "0"),
+            ("z'", "0"),
+        ]);
+        let linear = case.linear(&motion, "").unwrap();
+        assert_eq!(linear.family, count, "{energy}");
+    }
+}

@@ -185,8 +185,11 @@ fn map_of(own: &StabilityMap) -> Map {
 }
 
 fn row(study: &Study, name: &str, own: &Stability) -> TableRow {
-    let list = own.eigenvalues_at(own.stated_exactly()).unwrap_or_default();
-    let decimals = Decimals::of(list.iter().copied()).with_places(4);
+    let found = own.eigenvalues_at(own.stated_exactly());
+    let (list, are_enclosed) =
+        found.map_or((Vec::new(), false), |own| (own.values, own.are_enclosed));
+    let decimals = Decimals::of(list.iter().copied());
+    let decimals = decimals.with_places(4).exact_if(are_enclosed);
     let eigenvalues: Vec<String> = list.iter().map(|&l| decimals.typeset(l)).collect();
     let stated = |id: &str, word: &str| {
         let full = format!("{id}#{name}");

@@ -122,7 +122,7 @@ impl Stability {
                 parts.map(|(name, rows)| (name.to_owned(), exact(rows))).collect::<serde_json::Map<_, _>>()
             }),
             "characteristic_polynomial": polynomial,
-            "eigenvalues": self.eigenvalues_at(self.stated_exactly()).map(pairs),
+            "eigenvalues": self.eigenvalues_at(self.stated_exactly()).map(|own| pairs(own.values)),
         });
         let enclosed = self.enclosed();
         if !enclosed.is_empty() {
@@ -179,7 +179,7 @@ impl Stability {
             };
             let table = self.table(range).into_iter();
             value["table"] = table
-                .map(|(at, list)| json!({"value": at, "eigenvalues": pairs(list)}))
+                .map(|(at, list)| json!({"value": at, "eigenvalues": list.map(|own| pairs(own.values))}))
                 .collect();
         }
         value

@@ -1,7 +1,7 @@
 //! What was asked of a steady motion, in words and columns for a terminal.
 
 use super::decimal::{decimal_polynomial, notation};
-use super::{named_parts, Mode, Numbers, Stability};
+use super::{named_parts, Eigenvalues, Mode, Numbers, Stability};
 use crate::decimals::Decimals;
 use chetaev_mechanics::system::Parameter;
 use chetaev_stability::characteristic::{LARGEST, LARGEST_IN_NUMBERS};
@@ -174,7 +174,7 @@ impl Stability {
         if !modes.is_empty() {
             let _ = writeln!(text, "\nModes ({}):", self.question.linear.names.join(", "));
         }
-        let decimals = Decimals::of(modes.iter().map(|own| own.eigenvalue));
+        let decimals = decimals_of(&modes);
         for Mode {
             eigenvalue, vector, ..
         } in modes
@@ -305,7 +305,7 @@ impl Stability {
             _ => "\nEigenvalues:\n".into(),
         };
         match self.eigenvalues_at(self.stated_exactly()) {
-            Some(list) => complex(&list).iter().for_each(|l| {
+            Some(list) => eigenvalues(&list).iter().for_each(|l| {
                 let _ = writeln!(text, "  {l}");
             }),
             None => text.push_str("  not computed: a parameter has no value, or E is singular\n"),
@@ -366,7 +366,7 @@ impl Stability {
         }
         let _ = writeln!(text, "\nEigenvalues");
         for (value, list) in self.table(range) {
-            let list = complex(&list);
+            let list = list.map_or_else(|| vec!["no such motion".into()], |own| eigenvalues(&own));
             let _ = writeln!(text, "  {name} = {value:<8}  {}", list.join("  "));
         }
         text
@@ -421,7 +421,7 @@ impl Stability {
 
 /// The eigenvalues that have fewer modes than their multiplicity, off the axis, and on it where nothing was said of those.
 fn blocks(modes: &[Mode], with_axis: bool) -> String {
-    let decimals = Decimals::of(modes.iter().map(|own| own.eigenvalue));
+    let decimals = decimals_of(modes);
     let size = |(re, im): (f64, f64)| re.hypot(im);
     let largest = modes.iter().map(|own| size(own.eigenvalue));
     let largest = largest.fold(0.0, f64::max);
@@ -452,6 +452,16 @@ fn blocks(modes: &[Mode], with_axis: bool) -> String {
 
 /// Real parts that are smaller in parts of the largest eigenvalue are rounding.
 const ON_AXIS: f64 = 1e-9;
+
+fn decimals_of(modes: &[Mode]) -> Decimals {
+    let are_enclosed = modes.iter().all(|own| own.is_enclosed);
+    Decimals::of(modes.iter().map(|own| own.eigenvalue)).exact_if(are_enclosed)
+}
+
+fn eigenvalues(own: &Eigenvalues) -> Vec<String> {
+    let decimals = Decimals::of(own.values.iter().copied()).exact_if(own.are_enclosed);
+    own.values.iter().map(|l| decimals.complex(*l)).collect()
+}
 
 fn complex(list: &[(f64, f64)]) -> Vec<String> {
     let decimals = Decimals::of(list.iter().copied());

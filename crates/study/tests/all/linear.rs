@@ -239,7 +239,7 @@ fn zeros_of_a_free_chain_are_exact() {
             &["x", "y", "z"],
             &format!("parameters = {{ m = {m}, M = {big}, k = {k} }}\nlagrangian = \"1/2 m x'^2 + 1/2 M y'^2 + 1/2 m z'^2 - 1/2 k (y - x)^2 - 1/2 k (z - y)^2\""),
         );
-        let list = own.eigenvalues_at(None).unwrap();
+        let list = own.eigenvalues_at(None).unwrap().values;
         let zeros = list.iter().filter(|l| **l == (0.0, 0.0)).count();
         assert_eq!(zeros, 2, "{list:?}");
         let [m, big, k] = [m, big, k].map(|text| text.parse::<f64>().unwrap());
@@ -393,4 +393,52 @@ fn a_map_says_what_passes() {
             assert!((c * c * k - 0.04).abs() < 1e-9, "{k} {c}");
         }
     }
+}
+
+/// x'' + c x' + k x = 0 with c = 10⁸ + 10⁻⁹ and k = 1/10 has the eigenvalues −10⁸ and −10⁻⁹: each is printed, as it is enclosed.
+#[test]
+fn slow_eigenvalues_beside_fast_ones_are_printed() {
+    let own = at_rest(
+        &["x"],
+        "lagrangian = \"x'^2/2 - x^2/20\"\nforces = { x = \"-(100000000 + 1/1000000000) x'\" }",
+    );
+    let found = own.eigenvalues_at(None).unwrap();
+    assert!(found.are_enclosed);
+    assert_eq!(found.values, [(-1e8, 0.0), (-1e-9, 0.0)]);
+    assert_eq!(own.modes().len(), 2);
+    let text = own.linear_text();
+    for line in ["  -1.000000e8\n", "  -1.000000e-9\n"] {
+        assert!(text.contains(line), "{text}");
+    }
+}
+
+/// A motion at x = √(b − 3) is none where b < 3: the table says so, and has eigenvalues at the end b = 3 where it begins.
+#[test]
+fn a_table_says_where_there_is_no_motion() {
+    let text = r#"
+coordinates = ["x"]
+parameters = { b = 5 }
+lagrangian = "x'^2/2 - (x - sqrt(b - 3))^2/2"
+forces = { x = "-x'" }
+[steady.s]
+x = "sqrt(b - 3)"
+"x'" = 0
+"#;
+    let over = |range| {
+        let wanted = Wanted {
+            over: Some(range),
+            ..Wanted::default()
+        };
+        found(text, &wanted).ranges_text()
+    };
+    let rows = |text: &str| -> Vec<bool> {
+        let lines = text.lines().filter(|line| line.starts_with("  b = "));
+        lines.map(|line| line.contains("no such motion")).collect()
+    };
+    let whole = over("b=0:10");
+    let expected: Vec<bool> = (0..=10).map(|b| b < 3).collect();
+    assert_eq!(rows(&whole), expected, "{whole}");
+    let below = over("b=-7:3");
+    let expected: Vec<bool> = (-7..=3).map(|b| b < 3).collect();
+    assert_eq!(rows(&below), expected, "{below}");
 }
