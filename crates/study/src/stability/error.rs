@@ -42,7 +42,7 @@ pub enum StabilityError {
         found: String,
     },
     /// The values of a motion that was found are not known exactly.
-    #[error("the motion {name} is known by enclosures of its values only: they are zeros over other zeros without a closed form, and linear equations need exact values; `chetaev follow` takes it in numbers")]
+    #[error("the motion {name} is known by enclosures of its values only: no closed form of them was found, and linear equations need exact values; `chetaev follow` takes it in numbers")]
     NoClosedForm {
         /// Its number.
         name: String,
