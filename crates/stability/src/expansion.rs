@@ -13,6 +13,7 @@ use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use nalgebra::DMatrix;
@@ -293,7 +294,12 @@ impl<'a> Expansion<'a> {
             return Vec::new();
         }
         let coordinates = &self.system.coordinates;
-        let rate = |j: usize| (j, self.at(&[c.velocities[j]])[0]);
+        let rate = |j: usize| {
+            (
+                j,
+                simplify(g, self.at(&[c.velocities[j]])[0], &Options::default()),
+            )
+        };
         let ignorable = self.own.ignorable(self.system).into_iter();
         let moving: Vec<(usize, Expr)> = ignorable
             .map(rate)
@@ -306,6 +312,14 @@ impl<'a> Expansion<'a> {
             .filter(|(j, _)| !g.contains_any(c.velocities[*j], &symbols));
         uniform
             .map(|&(j, rate)| (coordinates[j].name.clone(), rate))
+            .collect()
+    }
+
+    /// Positions that are known, and all velocities, by name: their values at the motion.
+    pub fn values_of_motion(&self) -> Vec<(String, Expr)> {
+        let g = self.graph();
+        let all = self.state.values.iter();
+        all.map(|&(symbol, value)| (g.text(symbol), self.at(&[value])[0]))
             .collect()
     }
 

@@ -134,6 +134,8 @@ pub struct Stability {
     pub parts: Option<Parts>,
     /// Coordinates that run uniformly, with their rates.
     pub running: Vec<(String, Expr)>,
+    /// Positions that are known, and velocities, with their values along the motion.
+    pub along: Vec<(String, Expr)>,
     /// Why all parameters have their values.
     pub numbers: Option<Numbers>,
 }
@@ -281,6 +283,7 @@ fn in_symbols(
                     absent_rows,
                     space,
                     all,
+                    along: about.values_of_motion(),
                     running: about.running(),
                     system,
                     numbers: None,

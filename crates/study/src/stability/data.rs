@@ -106,6 +106,7 @@ impl Stability {
             "motion": self.motion.name,
             "variables": linear.names,
             "ignorable": linear.ignorable,
+            "along": self.along.iter().map(|(name, e)| (name.clone(), json!(notation(g, *e)))).collect::<serde_json::Map<_, _>>(),
             "running": self.running.iter().map(|(name, e)| json!({"name": name, "rate": notation(g, *e)})).collect::<Vec<_>>(),
             "family": linear.family,
             "speeds": linear.speeds.iter().map(|(name, e)| json!({"name": name, "definition": notation(g, *e)})).collect::<Vec<_>>(),

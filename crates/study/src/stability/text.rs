@@ -198,6 +198,7 @@ impl Stability {
                 linear.ignorable.join(", ")
             );
         }
+        text.push_str(&self.along_text());
         text.push_str(&self.running_text());
         if linear.family > 0 {
             let _ = writeln!(
@@ -216,6 +217,31 @@ impl Stability {
             }
         }
         text
+    }
+
+    /// The values along the motion, but the rates of what runs on.
+    fn along_text(&self) -> String {
+        let g = self.graph();
+        let runs = |name: &str| self.running.iter().any(|own| format!("{}'", own.0) == name);
+        let is_velocity = |name: &str| name.ends_with('\'');
+        let is_named = |own: &&(String, Expr)| match g.is_zero(own.1) {
+            true => !is_velocity(&own.0) && self.along.len() <= MOST_ZEROS,
+            false => !runs(&own.0),
+        };
+        let named: Vec<String> = self
+            .along
+            .iter()
+            .filter(is_named)
+            .map(|(name, e)| format!("{name} = {}", shown(g, *e)))
+            .collect();
+        let others = match self.along.len() <= MOST_ZEROS {
+            true => "velocities that are not named are 0",
+            false => "positions and velocities that are not named are 0",
+        };
+        match named.is_empty() {
+            true => String::new(),
+            false => format!("At {}; {others}\n", named.join(", ")),
+        }
     }
 
     /// In which frame the deviations are measured, where coordinates run on.
@@ -467,6 +493,9 @@ fn complex(list: &[(f64, f64)]) -> Vec<String> {
     let decimals = Decimals::of(list.iter().copied());
     list.iter().map(|own| decimals.complex(*own)).collect()
 }
+
+/// Of more positions and velocities those that are zero are not named.
+const MOST_ZEROS: usize = 32;
 
 /// An output as the numerator of a quotient: a name as it is, all else in parentheses.
 fn as_factor(output: &str) -> String {
