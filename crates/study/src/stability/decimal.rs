@@ -9,6 +9,8 @@ use chetaev_symbolic::{Expr, Graph, Symbol};
 const BITS: usize = 256;
 /// Digits of a coefficient.
 const DIGITS: usize = 8;
+/// Larger whole numbers are written with a power of ten.
+const WHOLE: f64 = 1e8;
 
 /// The powers of some symbols, and what they are multiplied by.
 type Term = (Vec<usize>, f64);
@@ -38,10 +40,25 @@ fn written(g: &Graph, symbols: &[Symbol], terms: &[Term]) -> String {
             1 => format!(" {name}"),
             power => format!(" {name}^{power}"),
         });
-        format!("{}{}", real(*value, DIGITS), powers.collect::<String>())
+        let powers: String = powers.collect();
+        match powers.strip_prefix(' ') {
+            Some(own) if *value == 1.0 => own.to_owned(),
+            Some(own) if *value == -1.0 => format!("-{own}"),
+            _ => format!("{}{powers}", coefficient(*value)),
+        }
     };
-    let terms: Vec<String> = terms.iter().map(term).collect();
+    let mut terms: Vec<&Term> = terms.iter().collect();
+    terms.sort_by(|a, b| b.0.cmp(&a.0));
+    let terms: Vec<String> = terms.into_iter().map(term).collect();
     terms.join(" + ").replace("+ -", "- ")
+}
+
+/// Whole numbers as they are.
+fn coefficient(value: f64) -> String {
+    match value.fract() == 0.0 && value.abs() < WHOLE {
+        true => format!("{value}"),
+        false => real(value, DIGITS),
+    }
 }
 
 /// By Taylor's formula at zero, which is exact.
@@ -88,4 +105,27 @@ pub(super) fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {
     }
     let found = g.enclose(&[e], &Precision::new(BITS), &|_| None).ok()?;
     Some(found.first()?.to_decimal_interval(20))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ones_and_whole_numbers_have_no_decimals() {
+        let g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| g.intern_symbol(name, 0));
+        let [a, b] = [x, y].map(|s| g.symbol_expr(s));
+        let half = g.sqrt(g.integer(2));
+        let e = g.add(&[
+            g.powi(a, 2),
+            g.mul(&[g.integer(-1), a, b]),
+            g.mul(&[g.integer(12), b]),
+            g.mul(&[half, a]),
+            g.one(),
+        ]);
+        let text = decimal_polynomial(&g, e, &[x, y]);
+        let expected = "x^2 - x y + 1.41421356 x + 12 y + 1";
+        assert_eq!(text.as_deref(), Some(expected));
+    }
 }
