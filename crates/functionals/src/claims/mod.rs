@@ -8,6 +8,7 @@ mod descent;
 mod duality;
 mod euler;
 mod flux;
+mod given;
 mod legendre;
 mod modulo;
 mod multipliers;
