@@ -14,7 +14,7 @@ mod modulo;
 mod multipliers;
 pub mod noether;
 mod on_box;
-mod reduction;
+pub mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
 mod solution;

@@ -11,19 +11,31 @@ use crate::space::Jet;
 use crate::variation::Variation;
 use chetaev_symbolic::Expr;
 
+/// A functional in which what is imposed is put in.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// The functional of the fields that are left.
+    pub functional: Functional,
+    /// The components that were put in, and what stands for them.
+    pub put_in: Vec<(usize, Expr)>,
+}
+
 /// The functional in which fields that are imposed to be something are that, in the interior and on the pieces on which they live.
-pub(super) fn reduced(functional: &Functional) -> Functional {
-    let mut own = functional.clone();
+pub fn reduced(functional: &Functional) -> Reduced {
+    let mut own = Reduced {
+        functional: functional.clone(),
+        put_in: Vec::new(),
+    };
     let places = functional
         .pieces
         .iter()
         .map(|piece| Some(piece.name.as_str()));
     for place in std::iter::once(None).chain(places) {
-        while let Some(found) = solved(&own, place) {
-            put_in(&mut own, found);
+        while let Some(found) = solved(&own.functional, place) {
+            own.put_in(found);
         }
     }
-    while given(&mut own) {}
+    while given(&mut own.functional) {}
     own
 }
 
@@ -104,21 +116,29 @@ fn given_instead(
     Some(found)
 }
 
-fn put_in(functional: &mut Functional, found: Found) {
-    let space = functional.space.clone();
-    functional.put(&|symbol| {
-        let jet = space.as_jet(symbol)?;
-        (jet.component == found.component).then(|| space.totals(found.value, &jet.by))
-    });
-    for (piece, given) in functional.pieces.iter_mut().zip(found.given) {
-        piece.fixed = given.into_iter().collect();
+impl Reduced {
+    fn put_in(&mut self, found: Found) {
+        let functional = &mut self.functional;
+        let space = functional.space.clone();
+        let stands = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            (jet.component == found.component).then(|| space.totals(found.value, &jet.by))
+        };
+        functional.put(&stands);
+        for (_, value) in &mut self.put_in {
+            *value = space.replace(*value, &stands);
+        }
+        for (piece, given) in functional.pieces.iter_mut().zip(&found.given) {
+            piece.fixed = given.iter().copied().collect();
+        }
+        for field in &mut functional.fields {
+            field.components.retain(|own| *own != found.component);
+        }
+        functional
+            .fields
+            .retain(|field| !field.components.is_empty());
+        self.put_in.push((found.component, found.value));
     }
-    for field in &mut functional.fields {
-        field.components.retain(|own| *own != found.component);
-    }
-    functional
-        .fields
-        .retain(|field| !field.components.is_empty());
 }
 
 /// What imposed equations give on a piece, or where pieces meet, is not varied there; whether anything new is given.

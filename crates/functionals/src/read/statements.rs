@@ -9,7 +9,7 @@ use crate::notation::{check, free_letters, parse, parse_sides, Index};
 use crate::space::pairs;
 use crate::tensors::{tuples, Scope, Tensor};
 use chetaev_model::raw::{Kind, Raw, Table};
-use chetaev_model::{Diagnostic, Place, Text};
+use chetaev_model::{name_of_path, Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::zero::assumptions::{Assumption, Relation};
 use chetaev_symbolic::Expr;
@@ -68,7 +68,10 @@ impl Reader<'_> {
         self.boundary_lives(table, &living, &pieces);
         let equations = self.equations(table, &scope, &pieces, &living);
         let symmetries = self.symmetries(table);
-        let name = self.optional(table, "name");
+        let name = match self.optional(table, "name") {
+            Some(name) => name.content,
+            None => name_of_path(&self.sources.get(place.source).name),
+        };
         let level = self.optional(table, "level");
         let description = self.optional(table, "description");
         let sources = match table.get("source") {
@@ -78,7 +81,7 @@ impl Reader<'_> {
         let of = |text: Option<Text>| text.map_or(String::new(), |text| text.content);
         let (tree, density) = density?;
         Some(Functional {
-            name: of(name),
+            name,
             level: level.map(|text| text.content),
             description: of(description),
             sources: sources.into_iter().map(|text| text.content).collect(),
