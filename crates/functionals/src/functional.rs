@@ -231,6 +231,12 @@ impl Functional {
         self.fields.iter().filter(|field| field.on.is_none())
     }
 
+    /// Whether a component is one of a field that is varied, in the interior or on a piece.
+    pub fn varies(&self, component: usize) -> bool {
+        let mut fields = self.fields.iter();
+        fields.any(|field| field.components.contains(&component))
+    }
+
     /// The names of the variables on which data depend, where these are not all.
     pub fn variables_of(&self, field: &Field) -> Option<Vec<&str>> {
         let space = &*self.space;

@@ -3,7 +3,9 @@
 //! Euler equations and natural conditions are derived by parts, which needs densities and fields that are smooth on the body: where one
 //! jumps or has a kink, a condition holds besides that no derivation by parts shows (Weierstrass and Erdmann, 1877).
 
+use crate::elimination::factors_of;
 use crate::functional::{Functional, Interval};
+use crate::notation::denominators;
 use crate::signs::{enclosure, on_interval, Sign};
 use crate::space::Space;
 use chetaev_symbolic::simplify::{simplify, Options};
@@ -296,9 +298,12 @@ impl Coefficients {
         let on_pieces = functional.pieces.iter().map(|piece| piece.density);
         let densities = std::iter::once(functional.density).chain(on_pieces);
         let all = densities.flat_map(|e| guards(g, space.explicit(e)));
-        for guard in all {
-            let is_of_place = space.is_of_place(&[guard.0]);
-            if !is_of_place || !space.jets_in(&[guard.0]).is_empty() {
+        let of_place = all.filter(|guard| space.is_of_place(&[guard.0]));
+        let written = denominators(functional).into_iter();
+        let written = written.flat_map(|e| factors_of(space, space.explicit(e)));
+        for guard in of_place.chain(written.map(|e| (e, Relation::NotEqual))) {
+            let is_number = g.as_number(guard.0).is_some();
+            if is_number || !space.jets_in(&[guard.0]).is_empty() {
                 continue;
             }
             let said = |relation: Relation| {

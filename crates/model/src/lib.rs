@@ -33,5 +33,6 @@ pub use load::{load, lowered, reload, tables, Loaded, Tables, FUNCTIONAL};
 pub use model::{Model, Precision};
 pub use overrides::with_values;
 pub use render::{DiagnosticData, PlaceData, RelatedData, Style, SuggestionData};
+pub use resolve::name_of_path;
 pub use source::{joined, Files, LineColumn, NoFiles, Place, Source, SourceId, Sources};
 pub use text::Text;

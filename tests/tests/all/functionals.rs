@@ -118,3 +118,46 @@ fn ritz_has_a_table_and_a_picture() {
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
     assert!(!shown(&page).contains("Convergence of Ritz"));
 }
+
+/// In the rows of level 2 with a mixed stress the traction on S_u is varied as a whole; which values it takes is decided by a matrix of moduli, and
+/// the condition is said to hold where it takes all (T4 §4).
+#[test]
+fn a_condition_of_a_traction_says_where_it_holds() {
+    let folder = scratch("functional-tractions");
+    for row in ["p2p", "p2pb"] {
+        let path = format!("gallery/elasticity/{row}/model.toml");
+        let out = ok(&[
+            "study",
+            &path,
+            "--claims",
+            "functional.legendre",
+            "--out",
+            text(&folder),
+        ])
+        .out;
+        let held = out
+            .split("  on S_u\n")
+            .nth(1)
+            .expect("the conditions on S_u");
+        let held = held.split("  on S_s\n").next().expect("those before S_s");
+        assert!(held.contains("where δP_k takes all values"), "{row}: {out}");
+        let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+        assert!(shown(&page).contains("takes all values"), "{row}");
+    }
+}
+
+/// The equation of u has no short form in index notation where its density is no polynomial in a component; that is said, and it stands in components.
+#[test]
+fn an_equation_without_indices_is_named() {
+    let folder = scratch("functional-indices");
+    let path = folder.join("mixed.toml");
+    let model = "kind = \"functional\"\nname = \"mixed\"\ndensity = \"1/2 s_ij s_ij + s_ij u_i,j + sin(u_1) + 1/2 v_i v_i\"\n[sizes]\nd = 2\n[domain]\n\
+                 coordinates = \"x_i\"\nboundary = [\"S\"]\n[fields]\ns = \"symmetric\"\nu = \"vector\"\nv = \"vector\"\n[boundary]\nS = { fixed = [\"u_1\"] }\n";
+    std::fs::write(&path, model).expect("a model");
+    let out = ok(&["study", text(&path), "--out", text(&folder)]).out;
+    assert!(out.contains("δu in components only"), "{out}");
+    assert!(out.contains("δv_i"), "{out}");
+    assert!(!out.contains("δs in components only"), "{out}");
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    assert!(shown(&page).contains("no short form in index notation"));
+}

@@ -148,12 +148,9 @@ fn not_cancelled(space: &Space, flux: &Flux, sum: Expr, verdict: Verdict) -> Ver
 }
 
 fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Finding {
-    let Flux {
-        written,
-        components: through,
-        ..
-    } = flux;
     let space = &*functional.space;
+    let written = &flux.written;
+    let through = &flux::without_constants(space, &flux.components);
     let g = &space.graph;
     let mut terms = vec![functional.density, other.density];
     for (axis, &w) in through.iter().enumerate() {
@@ -223,7 +220,7 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
             }
         }
     }
-    let at_ends = at_ends_of_time(functional, flux, &imposed);
+    let at_ends = at_ends_of_time(functional, through, &imposed);
     let verdict = match (all, at_ends) {
         (Verdict::Proved(proof), Some(condition)) => Verdict::Conditional {
             condition,
@@ -264,10 +261,10 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
 }
 
 /// What must hold at the first and at the last time: the boundary has no pieces there.
-fn at_ends_of_time(functional: &Functional, flux: &Flux, imposed: &[Group]) -> Option<String> {
+fn at_ends_of_time(functional: &Functional, flux: &[Expr], imposed: &[Group]) -> Option<String> {
     let space = &*functional.space;
     let axis = space.coordinates.iter().position(|c| c.is_time)?;
-    let through = *flux.components.get(axis)?;
+    let through = *flux.get(axis)?;
     let vanishes =
         matches!(vanishing(functional, &[through], imposed), Ok((_, needed)) if needed.is_empty());
     (!vanishes).then(|| {

@@ -8,7 +8,7 @@
 use crate::functional::Side;
 use crate::polynomial::Polynomial;
 use crate::space::{Jet, Space};
-use chetaev_symbolic::{rational, Expr};
+use chetaev_symbolic::{rational, Expr, Node};
 use std::collections::BTreeSet;
 
 /// Boole's rule: places and weights, in quarters and in ninetieths.
@@ -35,6 +35,30 @@ pub(super) fn of(space: &Space, density: Expr) -> Option<Vec<Expr>> {
     let divergence: Vec<Expr> = slopes.map(|(axis, &w)| space.total(w, axis)).collect();
     let difference = g.sub(density, g.add(&divergence));
     space.vanish(&[difference]).then_some(found)
+}
+
+/// A flux without its terms in which no fields or data occur, where these have no divergence: through the whole boundary they add up to nothing.
+pub(super) fn without_constants(space: &Space, flux: &[Expr]) -> Vec<Expr> {
+    let g = &space.graph;
+    let constant = |&w: &Expr| match g.node(w) {
+        Node::Sum { constant, terms } => {
+            let own = terms
+                .iter()
+                .filter(|(e, _)| space.jets_in(&[*e]).is_empty());
+            let own = own.map(|(e, factor)| g.mul(&[g.number(factor.clone()), *e]));
+            g.add(&own.chain([g.number(constant.clone())]).collect::<Vec<_>>())
+        }
+        _ if space.jets_in(&[w]).is_empty() => w,
+        _ => g.zero(),
+    };
+    let constants: Vec<Expr> = flux.iter().map(constant).collect();
+    let slopes = constants.iter().enumerate();
+    let divergence: Vec<Expr> = slopes.map(|(axis, &w)| space.total(w, axis)).collect();
+    if !space.vanish(&[g.add(&divergence)]) {
+        return flux.to_vec();
+    }
+    let both = flux.iter().zip(constants);
+    both.map(|(&w, constant)| g.sub(w, constant)).collect()
 }
 
 /// Whether a density on a face is a divergence along it, so that its integral is one over the edges: what it says of every field and of each

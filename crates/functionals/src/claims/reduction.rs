@@ -1,37 +1,69 @@
-//! What is imposed without a multiplier restricts the variations: fields that it gives are put in, and what it holds on a piece is given.
+//! What is imposed without a multiplier restricts the variations: fields that it gives are put in, those of the boundary too, and what it holds
+//! on a piece is given.
 //!
 //! Where an equation that is imposed cannot be solved for a field, its multiplier has to be stated; it may be left out where all Euler
 //! equations and natural conditions of the fields in it hold because of what is imposed, since then it is zero.
 
+use super::given::{given_by, is_given, is_regular, Given};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Equation, Functional, Role, Side};
+use crate::functional::{names_in, Equation, Functional, Piece, Role};
 use crate::space::Jet;
 use crate::variation::Variation;
 use chetaev_symbolic::Expr;
 
-/// The functional in which fields that are imposed to be something are that.
-pub(super) fn reduced(functional: &Functional) -> Functional {
-    let mut own = functional.clone();
-    while let Some((component, value)) = solved(&own) {
-        put_in(&mut own, component, value);
+/// A functional in which what is imposed is put in.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// The functional of the fields that are left.
+    pub functional: Functional,
+    /// The components that were put in, and what stands for them.
+    pub put_in: Vec<(usize, Expr)>,
+}
+
+/// The functional in which fields that are imposed to be something are that, in the interior and on the pieces on which they live.
+pub fn reduced(functional: &Functional) -> Reduced {
+    let mut own = Reduced {
+        functional: functional.clone(),
+        put_in: Vec::new(),
+    };
+    let places = functional
+        .pieces
+        .iter()
+        .map(|piece| Some(piece.name.as_str()));
+    for place in std::iter::once(None).chain(places) {
+        while let Some(found) = solved(&own.functional, place) {
+            own.put_in(found);
+        }
     }
-    given(&mut own);
+    while given(&mut own.functional) {}
     own
 }
 
-/// The components that are varied in the interior.
-fn varied(functional: &Functional) -> Vec<usize> {
-    let fields = functional.interior();
+/// A component that is put in.
+struct Found {
+    component: usize,
+    value: Expr,
+    /// What is given on each piece instead of it.
+    given: Vec<Given>,
+}
+
+/// The components that are varied in the interior, or on a piece alone.
+fn varied(functional: &Functional, on: Option<&str>) -> Vec<usize> {
+    let fields = functional
+        .fields
+        .iter()
+        .filter(|field| field.on.as_deref() == on);
     fields.flat_map(|field| field.components.clone()).collect()
 }
 
-/// A component with the value that an imposed equation gives it, where it occurs in it once, without derivatives and with a number before it.
-fn solved(functional: &Functional) -> Option<(usize, Expr)> {
+/// A component with the value that an equation imposed at its place gives it, where it occurs in it once, without derivatives and with a
+/// coefficient that does not vanish.
+fn solved(functional: &Functional, on: Option<&str>) -> Option<Found> {
     let space = &*functional.space;
     let g = &space.graph;
-    let varied = varied(functional);
-    let inside = functional.restricting().filter(|e| e.on.is_none());
-    let mut residuals = inside.flat_map(|e| e.residuals.iter().copied());
+    let varied = varied(functional, on);
+    let here = functional.restricting().filter(|e| e.on.as_deref() == on);
+    let mut residuals = here.flat_map(|e| e.residuals.iter().copied());
     residuals.find_map(|e| {
         let jets = space.jets_in(&[e]);
         // The last field first: definitions name what is defined behind what defines it as often as not, and any will do.
@@ -41,81 +73,105 @@ fn solved(functional: &Functional) -> Option<(usize, Expr)> {
                 .filter(|jet| jet.component == component)
                 .collect();
             let [jet] = own[..] else { return None };
-            let slope = space.partial(e, jet);
-            let is_number = g.as_number(slope).is_some_and(|n| !n.is_zero());
-            if !jet.by.is_empty() || !is_number || !can_leave(functional, component, e) {
+            if !jet.by.is_empty() || !is_regular(space, e, jet) {
                 return None;
             }
             let symbol = g.as_symbol(space.jet(component, &[]));
             let rest = space.replace(e, &|s| (Some(s) == symbol).then(|| g.zero()));
-            Some((component, g.neg(g.div(rest, slope))))
+            let value = g.neg(g.div(rest, space.partial(e, jet)));
+            let pieces = functional.pieces.iter();
+            let given = pieces.map(|piece| given_instead(functional, piece, component, value));
+            let given = given.collect::<Option<Vec<Given>>>()?;
+            Some(Found {
+                component,
+                value,
+                given,
+            })
         })
     })
 }
 
-/// Whether a component may be put in: where it is given, what gives it must be given too.
-fn can_leave(functional: &Functional, component: usize, e: Expr) -> bool {
-    let varied = varied(functional);
-    let jets = functional.space.jets_in(&[e]);
-    let others = || {
-        jets.iter()
-            .filter(|jet| jet.component != component && varied.contains(&jet.component))
-    };
-    functional.pieces.iter().all(|piece| {
-        let is_given = piece.fixed.iter().any(|(own, _)| *own == component);
-        !is_given
-            || others()
-                .all(|jet| jet.by.is_empty() && piece.fixed.contains(&(jet.component, false)))
-    })
+/// What is given on a piece where a component, or its slope, is given there and a value stands for it; `None` where that is another condition.
+fn given_instead(
+    functional: &Functional,
+    piece: &Piece,
+    component: usize,
+    value: Expr,
+) -> Option<Given> {
+    let space = &*functional.space;
+    let mut found: Given = piece
+        .fixed
+        .iter()
+        .copied()
+        .filter(|own| own.0 != component)
+        .collect();
+    let is_varied = |component: usize| functional.varies(component);
+    for is_slope in [false, true] {
+        if !piece.fixed.contains(&(component, is_slope)) {
+            continue;
+        }
+        let value = (value, is_slope);
+        found.extend(given_by(space, piece, value, &found, &is_varied)?);
+    }
+    Some(found)
 }
 
-fn put_in(functional: &mut Functional, component: usize, value: Expr) {
-    let space = functional.space.clone();
-    functional.put(&|symbol| {
-        let jet = space.as_jet(symbol)?;
-        (jet.component == component).then(|| space.totals(value, &jet.by))
-    });
-    for piece in &mut functional.pieces {
-        piece.fixed.retain(|(own, _)| *own != component);
+impl Reduced {
+    fn put_in(&mut self, found: Found) {
+        let functional = &mut self.functional;
+        let space = functional.space.clone();
+        let stands = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            (jet.component == found.component).then(|| space.totals(found.value, &jet.by))
+        };
+        functional.put(&stands);
+        for (_, value) in &mut self.put_in {
+            *value = space.replace(*value, &stands);
+        }
+        for (piece, given) in functional.pieces.iter_mut().zip(&found.given) {
+            piece.fixed = given.iter().copied().collect();
+        }
+        for field in &mut functional.fields {
+            field.components.retain(|own| *own != found.component);
+        }
+        functional
+            .fields
+            .retain(|field| !field.components.is_empty());
+        self.put_in.push((found.component, found.value));
     }
-    for field in &mut functional.fields {
-        field.components.retain(|own| *own != component);
-    }
-    functional
-        .fields
-        .retain(|field| !field.components.is_empty());
 }
 
-/// A component that an imposed equation gives on a piece is not varied there.
-fn given(functional: &mut Functional) {
+/// What imposed equations give on a piece, or where pieces meet, is not varied there; whether anything new is given.
+fn given(functional: &mut Functional) -> bool {
     let space = functional.space.clone();
-    let varied = varied(functional);
-    let mut found: Vec<(String, usize)> = Vec::new();
+    let is_varied = |component: usize| functional.varies(component);
+    let mut found: Vec<(String, Given)> = Vec::new();
     for equation in functional.restricting() {
-        let Some(on) = &equation.on else { continue };
+        let Some(piece) = equation.on.as_deref().and_then(|on| functional.piece(on)) else {
+            continue;
+        };
+        let known: Given = piece.fixed.iter().copied().collect();
         for &e in &equation.residuals {
-            let jets = space.jets_in(&[e]);
-            let own: Vec<&Jet> = jets
-                .iter()
-                .filter(|jet| varied.contains(&jet.component))
-                .collect();
-            if let [jet] = own[..] {
-                let slope = space.partial(e, jet);
-                let is_number = space.graph.as_number(slope).is_some_and(|n| !n.is_zero());
-                if jet.by.is_empty() && is_number {
-                    found.push((on.clone(), jet.component));
-                }
-            }
+            let new = given_by(&space, piece, (e, false), &known, &is_varied);
+            found.extend(
+                new.filter(|new| !new.is_empty())
+                    .map(|new| (piece.name.clone(), new)),
+            );
         }
     }
-    for piece in &mut functional.pieces {
-        let here = found.iter().filter(|(on, _)| *on == piece.name);
-        for (_, component) in here {
-            if !piece.fixed.contains(&(*component, false)) {
-                piece.fixed.push((*component, false));
-            }
+    for (on, new) in &found {
+        let piece = functional.pieces.iter_mut().find(|piece| piece.name == *on);
+        let fixed = piece.map(|piece| &mut piece.fixed);
+        for own in fixed.into_iter() {
+            own.extend(
+                new.iter()
+                    .filter(|new| !own.contains(new))
+                    .copied()
+                    .collect::<Vec<_>>(),
+            );
         }
     }
+    !found.is_empty()
 }
 
 /// Why the variations are restricted in a way that the Euler equations do not know.
@@ -145,11 +201,7 @@ pub(super) fn restricted(functional: &Functional, variation: &Variation) -> Opti
                 let euler = variation.euler.iter();
                 euler.filter(|(c, _)| own.contains(c)).map(|(_, e)| *e).collect()
             }
-            Some(on) => {
-                let here = variation.pieces.iter().filter(|piece| piece.piece == *on);
-                let all = here.flat_map(|piece| &piece.conditions);
-                all.filter(|c| own.contains(&c.component)).map(|c| c.value).collect()
-            }
+            Some(on) => acting(variation, on, &own),
         };
         let holds = match equation.on.as_deref().and_then(|on| functional.piece(on)) {
             Some(piece) => {
@@ -171,19 +223,33 @@ pub(super) fn restricted(functional: &Functional, variation: &Variation) -> Opti
     })
 }
 
-/// Whether an equation on a piece speaks only of components that are given there, and of their derivatives along it.
+/// The conditions on variations of components at a place, a piece or where pieces meet, with those where its pieces meet others.
+fn acting(variation: &Variation, on: &str, components: &[usize]) -> Vec<Expr> {
+    let names = names_in(on);
+    let here = variation.pieces.iter().filter(|piece| piece.piece == on);
+    let conditions = here.flat_map(|piece| &piece.conditions);
+    let of_pieces = conditions.map(|own| (own.component, own.value));
+    let is_here = |name: &String| names.contains(&name.as_str());
+    let meeting = variation.corners.iter().filter(|own| {
+        let (one, other) = &own.pieces;
+        if names.len() == 1 {
+            is_here(one) || is_here(other)
+        } else {
+            is_here(one) && is_here(other)
+        }
+    });
+    let all = of_pieces.chain(meeting.map(|own| (own.component, own.value)));
+    let own = all.filter(|(component, _)| components.contains(component));
+    own.map(|(_, value)| value).collect()
+}
+
+/// Whether an equation on a piece speaks only of what is given there.
 fn is_of_given(functional: &Functional, equation: &Equation) -> bool {
     let Some(piece) = equation.on.as_deref().and_then(|on| functional.piece(on)) else {
         return false;
     };
-    let varied = varied(functional);
+    let given: Given = piece.fixed.iter().copied().collect();
     let jets = functional.space.jets_in(&equation.residuals);
-    let mut own = jets.iter().filter(|jet| varied.contains(&jet.component));
-    own.all(|jet| {
-        let is_along = match &piece.side {
-            Side::Flat { axis, .. } => !jet.by.contains(axis),
-            Side::Curved => jet.by.is_empty(),
-        };
-        is_along && piece.fixed.contains(&(jet.component, false))
-    })
+    let mut own = jets.iter().filter(|jet| functional.varies(jet.component));
+    own.all(|jet| is_given(&functional.space, piece, &given, jet))
 }

@@ -80,7 +80,7 @@ impl<'f> Inserted<'f> {
             functional,
             solution,
         };
-        let reduced = reduced(functional);
+        let reduced = reduced(functional).functional;
         match crate::variation::variation(&reduced) {
             Ok(own) => match restricted(&reduced, &own) {
                 None => inserted.verdict(&own, None),

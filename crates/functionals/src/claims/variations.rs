@@ -1,12 +1,12 @@
 //! What two functionals admit to variation: with other variations they are two, whatever their densities.
 
+use super::given::{given_by, is_given, is_regular, Given};
 use super::special_values::{instance, put_in};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Equation, Field, Functional, Piece, Role, Side, Special, SpecialKind};
 use crate::space::Jet;
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::{Expr, Verdict};
-use std::collections::BTreeSet;
 
 /// A functional with special values put in, and with further equations imposed.
 pub(super) struct Variations<'f> {
@@ -17,9 +17,6 @@ pub(super) struct Variations<'f> {
     /// Labels of equations that are imposed besides.
     pub besides: &'f [String],
 }
-
-/// What is given on a piece: components, and whether their slopes across it.
-type Given = BTreeSet<(usize, bool)>;
 
 impl Variations<'_> {
     /// Why it has other variations than another functional; nothing where it has the same.
@@ -154,7 +151,7 @@ impl Variations<'_> {
             return None;
         }
         let piece = equation.on.as_deref().and_then(|on| of.piece(on));
-        if piece.is_some_and(|piece| residuals.iter().all(|&e| self.is_given(piece, e)))
+        if piece.is_some_and(|piece| residuals.iter().all(|&e| self.are_given(of, piece, e)))
             && !others.iter().any(|(own, _)| own.on == equation.on)
         {
             return Some(Verdict::undecided(
@@ -174,15 +171,12 @@ impl Variations<'_> {
     }
 
     /// Whether all fields in an expression are given on a piece.
-    fn is_given(&self, piece: &Piece, e: Expr) -> bool {
+    fn are_given(&self, of: &Functional, piece: &Piece, e: Expr) -> bool {
         let space = &*self.functional.space;
+        let given: Given = piece.fixed.iter().copied().collect();
         let mut jets = space.jets_in(&[e]).into_iter().peekable();
-        let is_field = |jet: &Jet| space.component_at(jet.component).is_varied;
         jets.peek().is_some()
-            && jets.all(|jet| {
-                !is_field(&jet)
-                    || jet.by.is_empty() && piece.fixed.contains(&(jet.component, false))
-            })
+            && jets.all(|jet| !of.varies(jet.component) || is_given(space, piece, &given, &jet))
     }
 
     /// What is given on a piece by one functional only.
@@ -239,66 +233,45 @@ impl Variations<'_> {
 
     /// What is given on a piece of this functional when the special values are put in; nothing where that is another condition.
     fn given(&self, piece: &Piece) -> Option<Given> {
-        let (values, kept): (Vec<_>, Vec<_>) = piece
+        let (values, kept): (Given, Given) = piece
             .fixed
             .iter()
             .partition(|(component, _)| self.value(*component).is_some());
-        let mut found: Given = kept.into_iter().collect();
+        let mut found = kept;
+        let is_varied = |component: usize| self.functional.varies(component);
         for (component, is_slope) in values {
-            let value = self.value(component)?;
-            found.extend(self.given_by(piece, value, is_slope, &found)?);
+            let value = (self.value(component)?, is_slope);
+            let space = &self.functional.space;
+            found.extend(given_by(space, piece, value, &found, &is_varied)?);
         }
         Some(found)
-    }
-
-    /// What is given where a function of other fields, or its slope, is: nothing new for numbers and data; a field for its multiples; the slope
-    /// of a field for the derivative across the piece, where derivatives along it are given with the field.
-    fn given_by(&self, piece: &Piece, value: Expr, is_slope: bool, found: &Given) -> Option<Given> {
-        let space = &*self.functional.space;
-        let is_varied = |jet: &Jet| space.component_at(jet.component).is_varied;
-        let jets: Vec<Jet> = space
-            .jets_in(&[value])
-            .into_iter()
-            .filter(is_varied)
-            .collect();
-        let jet = match &jets[..] {
-            [] => return Some(Given::new()),
-            [jet] => jet,
-            _ => return None,
-        };
-        space.graph.as_number(space.partial(value, jet))?;
-        let is_with_field = found.contains(&(jet.component, false));
-        match (&jet.by[..], is_slope, &piece.side) {
-            ([], ..) => Some(Given::from([(jet.component, is_slope)])),
-            ([by], false, Side::Flat { axis, .. }) if by == axis => {
-                Some(Given::from([(jet.component, true)]))
-            }
-            ([_], false, Side::Flat { .. }) if is_with_field => Some(Given::new()),
-            ([_], false, Side::Curved) if is_with_field || space.dimensions() == 1 => {
-                Some(Given::from([(jet.component, true)]))
-            }
-            _ => None,
-        }
     }
 
     /// Whether an equation that another functional imposes on a piece says what is given.
     fn is_imposed_on(&self, piece: &Piece, given: (usize, bool), other: &Functional) -> bool {
         let mut all = other.with_role(Role::Imposed);
         all.any(|own| {
-            own.on.as_deref() == Some(&piece.name) && self.says(piece, &own.residuals, given)
+            own.on.as_deref() == Some(&piece.name) && self.says(other, piece, &own.residuals, given)
         })
     }
 
     /// Whether an equation that is imposed here says what is given.
     fn is_imposed_here(&self, piece: &Piece, given: (usize, bool)) -> bool {
         let mut all = self.imposed().into_iter();
-        all.any(|(own, es)| own.on.as_deref() == Some(&piece.name) && self.says(piece, &es, given))
+        all.any(|(own, es)| {
+            own.on.as_deref() == Some(&piece.name) && self.says(self.functional, piece, &es, given)
+        })
     }
 
     /// Whether a component, or its slope across the piece, minus data is among expressions.
-    fn says(&self, piece: &Piece, es: &[Expr], (component, is_slope): (usize, bool)) -> bool {
+    fn says(
+        &self,
+        of: &Functional,
+        piece: &Piece,
+        es: &[Expr],
+        (component, is_slope): (usize, bool),
+    ) -> bool {
         let space = &*self.functional.space;
-        let is_varied = |jet: &Jet| space.component_at(jet.component).is_varied;
         let by = match (is_slope, &piece.side) {
             (false, _) => Vec::new(),
             (true, Side::Flat { axis, .. }) => vec![*axis],
@@ -306,11 +279,11 @@ impl Variations<'_> {
         };
         es.iter().any(|&e| {
             let jets = space.jets_in(&[e]);
-            let jets: Vec<&Jet> = jets.iter().filter(|jet| is_varied(jet)).collect();
+            let jets: Vec<&Jet> = jets.iter().filter(|jet| of.varies(jet.component)).collect();
             match jets[..] {
                 [jet] => {
                     let is_own = jet.component == component && jet.by == by;
-                    is_own && space.graph.as_number(space.partial(e, jet)).is_some()
+                    is_own && is_regular(space, e, jet)
                 }
                 _ => false,
             }

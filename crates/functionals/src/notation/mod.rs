@@ -7,6 +7,7 @@
 mod apart;
 mod by_parts;
 mod canonical;
+mod denominators;
 mod densities;
 pub mod equations;
 mod freedom;
@@ -16,6 +17,7 @@ mod print;
 mod terms;
 mod traction;
 
+pub(crate) use denominators::denominators;
 pub use indices::{check, free_letters};
 pub use parse::{parse, parse_comparison, parse_sides};
 pub use print::{written, written_equation};

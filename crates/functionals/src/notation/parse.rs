@@ -325,8 +325,17 @@ impl<'a> Reader<'a> {
         if comma.kind != TokenKind::Comma || !touches || !is_index {
             return Some(Vec::new());
         }
-        let span = next.span;
+        let mut span = next.span;
         self.at += 2;
+        // A number ends where letters begin: `w,1j`.
+        while let Some(more) = self.tokens.get(self.at) {
+            let is_index = matches!(more.kind, TokenKind::Name(_) | TokenKind::Number(_));
+            if !is_index || more.span.start != span.end {
+                break;
+            }
+            span = span.to(more.span);
+            self.at += 1;
+        }
         let text = span.text(self.text).to_owned();
         if let Some(axis) = self.names.coordinate(&normalized(&text)) {
             return Some(vec![Index::Place(axis)]);

@@ -163,7 +163,12 @@ impl Reader<'_> {
             Ok(other) => other,
             Err(missing) => return missing.map(Relation::Without),
         };
-        let functional = &own;
+        // Where the dual has more fields the flux is one of these.
+        let functional = if has_more_fields(&other, &own) {
+            &other
+        } else {
+            &own
+        };
         let flux = self.optional(section, "flux").and_then(|text| {
             let node = self.node(&functional.scope, &text, None)?;
             let letters = free_letters(&node);
@@ -391,4 +396,11 @@ fn varying(functional: &Functional, own: Expr, value: Expr) -> Option<usize> {
     let varies = |axis: usize| component.is_some_and(|own| space.varies_along(own, axis));
     let mut axes = (0..space.coordinates.len()).filter(|&axis| !varies(axis));
     axes.find(|&axis| !space.vanish(&[space.total(value, axis)]))
+}
+
+/// Whether a functional has all fields of another one in the interior, and more.
+fn has_more_fields(one: &Functional, other: &Functional) -> bool {
+    let has = |of: &Functional, name: &str| of.interior().any(|own| own.name == name);
+    let mut all = other.interior();
+    all.all(|own| has(one, &own.name)) && one.interior().any(|own| !has(other, &own.name))
 }

@@ -5,11 +5,11 @@ use super::Reader;
 use crate::functional::{
     names_in, place_of, Definition, Equation, Field, Functional, Interval, Piece, Role, Side,
 };
-use crate::notation::{free_letters, parse, parse_sides};
+use crate::notation::{check, free_letters, parse, parse_sides, Index};
 use crate::space::pairs;
 use crate::tensors::{tuples, Scope, Tensor};
 use chetaev_model::raw::{Kind, Raw, Table};
-use chetaev_model::{Diagnostic, Place, Text};
+use chetaev_model::{name_of_path, Diagnostic, Place, Text};
 use chetaev_symbolic::syntax::names::closest;
 use chetaev_symbolic::zero::assumptions::{Assumption, Relation};
 use chetaev_symbolic::Expr;
@@ -68,7 +68,10 @@ impl Reader<'_> {
         self.boundary_lives(table, &living, &pieces);
         let equations = self.equations(table, &scope, &pieces, &living);
         let symmetries = self.symmetries(table);
-        let name = self.optional(table, "name");
+        let name = match self.optional(table, "name") {
+            Some(name) => name.content,
+            None => name_of_path(&self.sources.get(place.source).name),
+        };
         let level = self.optional(table, "level");
         let description = self.optional(table, "description");
         let sources = match table.get("source") {
@@ -78,7 +81,7 @@ impl Reader<'_> {
         let of = |text: Option<Text>| text.map_or(String::new(), |text| text.content);
         let (tree, density) = density?;
         Some(Functional {
-            name: of(name),
+            name,
             level: level.map(|text| text.content),
             description: of(description),
             sources: sources.into_iter().map(|text| text.content).collect(),
@@ -342,9 +345,13 @@ impl Reader<'_> {
                 Some(name) => (name, true),
                 None => (text.content.as_str(), false),
             };
-            let is_definition = scope.definitions.contains_key(name);
-            let tensor = scope.tensors.get(name).filter(|_| !is_definition);
-            let Some(tensor) = tensor else {
+            let head = name.split('_').next().unwrap_or(name);
+            let is_definition = scope.definitions.contains_key(head);
+            let own = scope.tensors.get(name).map(|own| own.components.clone());
+            let own = own
+                .or_else(|| component_named(scope, name))
+                .filter(|_| !is_definition);
+            let Some(own) = own else {
                 let message = if is_definition {
                     format!("`{name}` is a definition, not a field: `fixed` names the fields that are given")
                 } else {
@@ -361,7 +368,7 @@ impl Reader<'_> {
                 });
                 continue;
             };
-            let jets = scope.space.jets_in(&tensor.components);
+            let jets = scope.space.jets_in(&own);
             let given = jets.into_iter().map(|jet| (jet.component, is_normal));
             let given: Vec<(usize, bool)> = given.collect();
             if given.iter().any(|own| found.contains(own)) {
@@ -699,6 +706,20 @@ fn inside(scope: &Scope, intervals: &[Interval]) {
             });
         }
     }
+}
+
+/// The component of a field or of data that a name with indices is: `u_1`, `s_12`.
+fn component_named(scope: &Scope, name: &str) -> Option<Vec<Expr>> {
+    let mut problems = Vec::new();
+    let node = parse(name, scope, &mut problems)?;
+    let crate::notation::Kind::Atom(atom) = &node.kind else {
+        return None;
+    };
+    let is_plain = atom.derivatives.is_empty() && atom.argument.is_none() && atom.primes == 0;
+    let is_place = |own: &Index| matches!(own, Index::Place(_));
+    let is_component = is_plain && !atom.indices.is_empty() && atom.indices.iter().all(is_place);
+    check(&node, &[], scope, &mut problems);
+    (is_component && problems.is_empty()).then(|| scope.components(&node, &[]))
 }
 
 /// The name of what is defined, without its letters.

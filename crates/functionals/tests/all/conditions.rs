@@ -194,3 +194,33 @@ fn solutions_need_not_be_polynomials() {
         assert_eq!(verdict.word(), wanted, "{own}: {}", verdict.detail());
     }
 }
+
+/// (1 − β)/(1 − β) is one for β ≠ 1, and no number there: what cancels is said, as what stays.
+#[test]
+fn what_is_divided_by_is_named_also_where_it_cancels() {
+    let euler = |density: &str, more: &str| {
+        let text = format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"{density}\"\nyields = [\"e\"]\n{more}[domain]\ncoordinates = [\"x\"]\n\
+             intervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nf = \"scalar\"\n[parameters]\nbeta = {{}}\n[define]\nr = \"(1 - beta)/(1 - beta)\"\n\
+             [boundary]\n\"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n[equations]\ne = \"u,xx + f = 0\"\n"
+        );
+        let study = studied_text("p4p", &text, &[]);
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), "proved", "{density}: {}", verdict.detail());
+        verdict.detail().to_owned()
+    };
+    for density in [
+        "(1 - beta)/(1 - beta) 1/2 u,x^2 - f u",
+        "r/2 u,x^2 - f u",
+        "(1 - beta) (1 - beta)^(-1) 1/2 u,x^2 - f u",
+        "1/2 u,x^2 - 2 f (u - beta u)/(2 - 2 beta)",
+    ] {
+        let detail = euler(density, "");
+        assert!(detail.contains("beta - 1 ≠ 0"), "{density}: {detail}");
+        // Where it is assumed nothing is to be said.
+        let detail = euler(density, "assumptions = [\"beta > 2\"]\n");
+        assert!(!detail.contains('≠'), "{density}: {detail}");
+    }
+    assert!(!euler("1/2 u,x^2 - f u", "").contains('≠'));
+    assert!(euler("1/2 u,x^2 - f u^2/u", "").contains("u != 0"));
+}

@@ -1,6 +1,6 @@
 //! Euler equations and natural conditions in index notation: what T4 §4 and §5 state, and agreement with the components.
 
-use crate::table::{loaded_text, row_text, ROWS};
+use crate::table::{decided, loaded_text, row_text, studied_text, ROWS};
 use chetaev_functionals::notation::equations::{euler, natural, Indexed};
 use chetaev_functionals::notation::written;
 use chetaev_functionals::variation::variation;
@@ -165,4 +165,22 @@ fn letters_of_a_density_are_none_of_the_free_ones() {
         .map(|own| written(&own.value, &functional.scope, Format::Text))
         .collect();
     assert_eq!(lines, ["3 delta_ij s_kk s_ll"]);
+}
+
+/// Of ½ w,1j w,1j with j = 1, 2 the Euler equation is w,1111 + w,1122 = 0: a digit and a letter stand side by side as two letters do.
+#[test]
+fn a_digit_and_a_letter_are_two_indices_of_a_derivative() {
+    let model = |density: &str, equation: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"m\"\ndensity = \"{density}\"\nyields = [\"e\"]\n[sizes]\nd = 2\n[domain]\ncoordinates = \"x_i\"\n\
+             boundary = [\"S\"]\n[fields]\nw = \"scalar\"\n[boundary]\nS = {{ fixed = [\"w\", \"w,n\"] }}\n[equations]\ne = \"{equation}\"\n"
+        )
+    };
+    for density in ["1/2 w,1j w,1j", "1/2 w,j1 w,1j", "1/2 (w,j),1 (w,1),j"] {
+        let study = studied_text("p4p", &model(density, "w,1111 + w,11j2 delta_j2 = 0"), &[]);
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), "proved", "{density}: {}", verdict.detail());
+    }
+    let study = studied_text("p4p", &model("1/2 w,1j w,1j", "w,iijj = 0"), &[]);
+    assert_ne!(decided(&study, "functional.euler").word(), "proved");
 }

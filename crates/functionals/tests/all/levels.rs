@@ -207,17 +207,30 @@ fn the_lowest_levels_are_dual_modulo_equations() {
             ("functional.duality", "proved", fields),
         );
     }
-    // No functional has the relation in the gallery. (3) is the definition of the stress in Pp, and an equation in Pc.
+    // (3) is the definition of the stress in Pp, and an equation in Pc.
     let last = "in the interior modulo (3) and (4), on S_u modulo ";
-    for (row, other) in [("pp", "pc"), ("pc", "pp")] {
-        let pair = |flux: &str| {
-            let with =
-                format!("\n[duality]\nwith = \"../{other}/model.toml\"\nflux = \"{flux}\"\n");
-            row_text(row) + &with
-        };
+    for row in ["pp", "pc"] {
+        let twice = row_text(row).replace("flux = \"t_ik u_k\"", "flux = \"2 t_ik u_k\"");
         let of = |word, part| ("functional.duality", word, part);
-        says(row, &pair("t_ik u_k"), PLANE, of("proved", last));
-        says(row, &pair("2 t_ik u_k"), PLANE, of("refuted", "2 t_ik u_k"));
+        says(row, &row_text(row), PLANE, of("proved", last));
+        says(row, &twice, PLANE, of("refuted", "2 t_ik u_k"));
+    }
+    // The stress field of P2c1 has its traction on S_u alone, where it is a factor of (5).
+    let mixed = "on S_u modulo (5), of second order with (5) and (9)";
+    for row in ["p2p1", "p2c1"] {
+        let wrong = row_text(row).replace("flux = \"t_ik u_k\"", "flux = \"s_ik u_k\"");
+        says(
+            row,
+            &row_text(row),
+            PLANE,
+            ("functional.duality", "proved", mixed),
+        );
+        says(
+            row,
+            &wrong,
+            PLANE,
+            ("functional.duality", "refuted", "s_ik u_k"),
+        );
     }
     says(
         "p1p",

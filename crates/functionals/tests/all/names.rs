@@ -1,7 +1,8 @@
 //! Names that mean something in every functional are refused with what they mean, at their place, and with nothing else.
 
 use crate::table::read_text;
-use chetaev_model::Style;
+use chetaev_functionals::load;
+use chetaev_model::{NoFiles, Style};
 
 /// A functional in which a name is declared somewhere.
 fn said(section: &str, entry: &str, more: &str) -> String {
@@ -96,4 +97,19 @@ fn a_name_is_declared_once_in_all_sections() {
         "",
     );
     assert!(said.contains("`W` is declared twice"), "{said}");
+}
+
+#[test]
+fn a_model_without_a_name_has_that_of_its_file() {
+    let text = "kind = \"functional\"\ndensity = \"u,x^2\"\n[domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\n\
+                [boundary]\n\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n";
+    for (path, name) in [
+        ("a/string.toml", "string"),
+        ("membrane.toml", "membrane"),
+        // A folder has the name where the file is the model of it.
+        ("a/catenary/model.toml", "catenary"),
+    ] {
+        let loaded = load(path, text, &NoFiles, &[]);
+        assert_eq!(loaded.problem.unwrap().functional.name, name);
+    }
 }

@@ -382,3 +382,32 @@ fn what_the_other_functional_imposes_is_used_as_far_as_it_says_something() {
         );
     }
 }
+
+/// Two functionals whose densities add up to (s u)' are dual with any flux s u + c: a constant goes in at one end and out at the other.
+#[test]
+fn a_constant_in_a_flux_is_none() {
+    let flux = |flux: &str, ends: [&str; 2], expected: (&str, &str)| {
+        let more = format!("[duality]\nwith = \"other.toml\"\nflux = \"{flux}\"\n");
+        let own = Text {
+            ends,
+            more: &more,
+            ..Text::of("1/2 s^2 + s u,x", &["s", "u"])
+        };
+        let other = Text {
+            ends: ["\"s u\"", "\"-s u\""],
+            ..Text::of("-1/2 s^2 + s,x u", &["s", "u"])
+        };
+        related("functional.duality", own, other, expected);
+    };
+    for constant in ["", " + 1", " - 3/2 pi", " + 2 - 2"] {
+        flux(
+            &format!("s u{constant}"),
+            [FREE; 2],
+            ("proved", "to zero identically"),
+        );
+    }
+    // What has a divergence is no constant.
+    flux("s u + x", [FREE; 2], ("refuted", "not the divergence"));
+    // Both functionals add up to 1.
+    flux("s u + 1", ["\"1\"", FREE], ("undecided", ""));
+}

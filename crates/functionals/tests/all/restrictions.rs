@@ -1,6 +1,6 @@
 //! What is imposed without a multiplier restricts the variations: expected equations by Lagrange's multipliers or by putting in, on paper.
 
-use crate::table::{decided, studied_text};
+use crate::table::{decided, row_text, studied_text};
 use chetaev_functionals::Study;
 
 /// Two fields on a line; `ends` says what stands at both ends.
@@ -52,7 +52,7 @@ const HELD: &str = "{ fixed = [\"u\", \"v\"] }";
 
 #[test]
 fn a_field_that_is_imposed_is_put_in() {
-    let cases: [(&str, &str, &str, &str); 8] = [
+    let cases: [(&str, &str, &str, &str); 14] = [
         // ½u'² + u² for v = u.
         ("1/2 u,x^2 + u v", "v = u", "u,xx = 2 u", "proved"),
         ("1/2 u,x^2 + u v", "v = u", "u = 0", "refuted"),
@@ -78,8 +78,31 @@ fn a_field_that_is_imposed_is_put_in() {
             "2 u,xx - f,xx = 0",
             "proved",
         ),
+        // ½u'² + ½u''² for v = u', whose ends hold u and u'.
+        (
+            "1/2 u,x^2 + 1/2 v,x^2",
+            "u,x = v",
+            "u,xxxx = u,xx",
+            "proved",
+        ),
+        ("1/2 u,x^2 + 1/2 v,x^2", "u,x = v", "v,xxx = v,x", "proved"),
+        ("1/2 u,x^2 + 1/2 v,x^2", "u,x = v", "u,xx = 0", "refuted"),
+        ("1/2 u,x^2 + 1/2 v,x^2", "u,x = v", "v,xx = v", "refuted"),
+        // ½u² + ½u''²: the fourth derivative plus u.
+        (
+            "1/2 u^2 + 1/2 v,x^2",
+            "u,x - v = 0",
+            "u,xxxx + u = 0",
+            "proved",
+        ),
+        ("1/2 u^2 + 1/2 v,x^2", "u,x - v = 0", "v,xx = u", "refuted"),
         // No field can be solved for: the multiplier is not known.
-        ("1/2 u,x^2 + 1/2 v,x^2", "u,x = v", "u,xx = 0", "undecided"),
+        (
+            "1/2 u,x^2 + 1/2 v,x^2",
+            "u,x = v,x",
+            "u,xx = 0",
+            "undecided",
+        ),
     ];
     for (density, imposed, stated, word) in cases {
         let study = studied(density, &[stated], &[(imposed, "")], [HELD, HELD]);
@@ -112,6 +135,174 @@ fn what_is_imposed_on_an_end_is_not_varied_there() {
     );
     let verdict = decided(&study, "functional.euler");
     assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+}
+
+/// A bar with a traction P of its own at its left end, of which something is imposed.
+fn with_traction(density: &str, imposed: &str, stated: &str) -> Study {
+    let text = format!(
+        r#"
+kind = "functional"
+name = "traction"
+density = "1/2 u,x^2 - f u"
+imposed = ["z"]
+yields = ["e", "h", "g"]
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 2] }}
+[fields]
+u = "scalar"
+P = {{ kind = "scalar", on = "x = 0" }}
+[data]
+f = "scalar"
+a = {{ kind = "scalar", on = "x = 0" }}
+[boundary]
+"x = 0" = "{density}"
+"x = 2" = "0"
+[equations]
+e = "u,xx + f = 0"
+z = {{ equation = "{imposed}", on = "x = 0" }}
+h = {{ equation = "{stated}", on = "x = 0" }}
+g = {{ equation = "u,x = 0", on = "x = 2" }}
+"#
+    );
+    studied_text("p4p", &text, &[])
+}
+
+/// By hand: with b the density at x = 0 in which P is put in, −u' δu + δb = 0 there.
+#[test]
+fn what_is_imposed_on_a_field_of_the_boundary_restricts_its_variations() {
+    for (density, imposed, stated, word) in [
+        // P = 0: b = 0, the end is free, and u is not given there.
+        ("P u", "P = 0", "u,x = 0", "proved"),
+        ("P u", "P = 0", "u = 0", "refuted"),
+        // P = a is a load: −u' + a = 0.
+        ("P u", "P = a", "u,x = a", "proved"),
+        ("P u", "2 P - 2 a = 0", "u,x = a", "proved"),
+        ("P (u - a)", "P = a", "u = a", "refuted"),
+        // P = u': b = u u', −u' δu + u δu' + u' δu = u δu'.
+        ("P u", "P = u,x", "u = 0", "proved"),
+        ("P u", "P = u,x", "u,x = 0", "refuted"),
+        // P is another name of u: b = −3 u, u' = −3.
+        ("-3 P", "u = P", "u,x = -3", "proved"),
+        ("-3 P", "u = P", "u = 0", "refuted"),
+        // P² = a² is solved for no field.
+        ("P u", "P^2 = a^2", "u = 0", "undecided"),
+    ] {
+        let study = with_traction(density, imposed, stated);
+        let verdict = decided(&study, "functional.euler");
+        let said = verdict.detail();
+        assert_eq!(
+            verdict.word(),
+            word,
+            "{density}, {imposed}, {stated}: {said}"
+        );
+    }
+}
+
+/// P0p without equilibrium imposed, with the traction on S_u a field of its own: δP_k gives u_k = ubar_k there (T4 §4), but not where P is
+/// imposed to vanish; then S_u is free.
+#[test]
+fn a_traction_that_is_imposed_to_vanish_gives_no_displacement() {
+    let text = row_text("p0p");
+    let rows = [
+        ("yields = [\"4\", \"5\", \"6\", \"7\"]", false),
+        ("yields = [\"4\", \"5\", \"6\"]", false),
+        ("yields = [\"4\", \"6\", \"11\"]", true),
+    ];
+    for (yields, is_true) in rows {
+        let text = text
+            .replace(
+                "imposed = [\"2\", \"3\", \"4\"]",
+                "imposed = [\"2\", \"3\", \"10\"]",
+            )
+            .replace("yields = [\"5\", \"6\", \"7\"]", yields)
+            .replace(
+                "[equations]\n",
+                "[equations]\n10 = { equation = \"Pb_k = 0\", on = \"S_u\" }\n11 = { equation = \"P_k = 0\", on = \"S_u\" }\n",
+            );
+        let study = studied_text("p0p", &text, &[("d", "2")]);
+        let verdict = decided(&study, "functional.euler");
+        let is_proved = verdict.word() == "proved";
+        assert_eq!(is_proved, is_true, "{yields}: {}", verdict.detail());
+    }
+}
+
+/// In a plane body with the energy e_ij e_ij of the strain the traction is 2 n_i e_ij: where u_1 alone is held on x_1 = 0,
+/// u_1,2 + u_2,1 = 0 is natural there, and nothing else; where u_2 alone is, u_1,1 = 0.
+#[test]
+fn on_rollers_the_other_component_is_free() {
+    let on_rollers = |held: &str, stated: &str| {
+        let text = format!(
+            r#"
+kind = "functional"
+name = "rollers"
+density = "1/2 (u_i,j + u_j,i) u_i,j - f_i u_i"
+yields = ["e", "h"]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+intervals = {{ x_1 = [0, 2], x_2 = [0, 1] }}
+[fields]
+u = "vector"
+[data]
+f = "vector"
+[boundary]
+"x_1 = 0" = {{ fixed = ["{held}"] }}
+"x_1 = 2" = {{ fixed = ["u"] }}
+"x_2 = 0" = {{ fixed = ["u"] }}
+"x_2 = 1" = {{ fixed = ["u_1", "u_2"] }}
+[equations]
+e = "u_i,jj + u_j,ji + f_i = 0"
+h = {{ equation = "{stated}", on = "x_1 = 0" }}
+"#
+        );
+        let study = studied_text("p4p", &text, &[]);
+        decided(&study, "functional.euler").word().to_owned()
+    };
+    for (held, stated, word) in [
+        ("u_1", "u_1,2 + u_2,1 = 0", "proved"),
+        ("u_1", "u_2,1 = 0", "refuted"),
+        ("u_1", "u_1,1 = 0", "refuted"),
+        ("u_1", "u_2 = 0", "refuted"),
+        ("u_2", "u_1,1 = 0", "proved"),
+        ("u_2", "u_1,2 + u_2,1 = 0", "refuted"),
+    ] {
+        assert_eq!(on_rollers(held, stated), word, "{held}: {stated}");
+    }
+}
+
+/// ∫ (½ u''² − f u) dx with u' = 0 imposed at x = 0: u''' = 0 is natural there, and u'' = 0 is not.
+#[test]
+fn a_slope_that_is_imposed_is_not_varied() {
+    for (stated, word) in [("u,xxx = 0", "proved"), ("u,xx = 0", "refuted")] {
+        let text = format!(
+            r#"
+kind = "functional"
+name = "slope"
+density = "1/2 u,xx^2 - f u"
+imposed = ["z"]
+yields = ["e", "h"]
+[domain]
+coordinates = ["x"]
+intervals = {{ x = [0, 2] }}
+[fields]
+u = "scalar"
+[data]
+f = "scalar"
+[boundary]
+"x = 0" = "0"
+"x = 2" = {{ fixed = ["u", "u,n"] }}
+[equations]
+e = "u,xxxx = f"
+z = {{ equation = "u,x = 0", on = "x = 0" }}
+h = {{ equation = "{stated}", on = "x = 0" }}
+"#
+        );
+        let study = studied_text("p4p", &text, &[]);
+        let verdict = decided(&study, "functional.euler");
+        assert_eq!(verdict.word(), word, "{stated}: {}", verdict.detail());
+    }
 }
 
 #[test]

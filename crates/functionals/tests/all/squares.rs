@@ -49,3 +49,14 @@ fn stationary_fields_make_squares_vanish() {
     );
     assert_eq!(word, "refuted", "{detail}");
 }
+
+/// ∫ ½ u'² dx + ½ (u(0) − g)² has u' = u − g at x = 0 and u' = 0 at x = 1, so that u = g: with two springs, to g and to h, u' = (h − g)/3 is
+/// stationary, and nothing is a square of the field alone.
+#[test]
+fn data_on_the_boundary_are_no_fields() {
+    let data =
+        "g = { kind = \"scalar\", on = \"x = 0\" }\nh = { kind = \"scalar\", on = \"x = 1\" }\n";
+    let springs = ["\"1/2 (u - g)^2\"", "\"1/2 (u - h)^2\""];
+    let (word, detail) = euler("1/2 u,x^2", data, springs, "u,x = 0");
+    assert_eq!(word, "refuted", "{detail}");
+}

@@ -537,7 +537,8 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
 }
 
 /// A name for a model that states none: the folder, or the file where it is not called `model.toml`.
-fn name_of_path(path: &str) -> String {
+#[must_use]
+pub fn name_of_path(path: &str) -> String {
     let mut parts = path.rsplit(['/', '\\']).filter(|part| !part.is_empty());
     let file = parts.next().unwrap_or("model");
     let stem = file.strip_suffix(".toml").unwrap_or(file);

@@ -40,6 +40,27 @@ pub(super) fn indexed_euler(functional: &Functional, variation: &Variation) -> V
     with_indices(own.map(shown_indexed).filter(is_shown).collect())
 }
 
+/// What is said of equations that are printed in components alone.
+pub(super) const NO_INDICES: &str = "in components only: no short form in index notation was found";
+
+/// Fields whose Euler equations have no short form in index notation, though others have one; those that vanish identically need none.
+pub(super) fn without_indices(functional: &Functional, variation: &Variation) -> Vec<String> {
+    if indexed_euler(functional, variation).is_empty() {
+        return Vec::new();
+    }
+    let absent = absent(functional, variation);
+    let all = equations::euler(functional, variation);
+    let all = functional.interior().zip(all);
+    let open = all.filter(|(field, own)| own.is_none() && !absent.contains(&field.name));
+    open.map(|(field, _)| format!("δ{}", field.name)).collect()
+}
+
+/// Whether conditions on a piece have no short form in index notation, though tensors are varied there.
+pub(super) fn is_without_indices(functional: &Functional, piece: &str, shown: &[Shown]) -> bool {
+    let of_tensor = |own: &Shown| own.of.contains('_');
+    shown.iter().any(of_tensor) && indexed_natural(functional, piece).is_none()
+}
+
 /// Fields of the interior whose Euler equations vanish identically.
 pub(super) fn absent(functional: &Functional, variation: &Variation) -> Vec<String> {
     let space = &functional.space;

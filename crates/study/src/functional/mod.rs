@@ -6,6 +6,7 @@ mod flat;
 mod pace;
 mod page;
 mod pictures;
+mod put_in;
 mod record;
 mod selection;
 mod summary;

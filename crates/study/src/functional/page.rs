@@ -2,8 +2,10 @@
 
 use super::equations::{
     absent, boundary, dependence, euler, given, head, in_order, indexed_euler, indexed_natural,
-    joined, kind, labels, number, restricting, used, Indexed, Shown,
+    is_without_indices, joined, kind, labels, number, restricting, used, without_indices, Indexed,
+    Shown, NO_INDICES,
 };
+use super::put_in::put_in;
 use super::typesetting::{
     as_written, caption, field_name, formula, in_indices, in_print, vanishing, variation_name,
 };
@@ -216,8 +218,30 @@ fn sections(study: &Study) -> Vec<EquationSection> {
                 .flat_map(|(pieces, own)| on_pieces(f, pieces, own)),
         );
     }
+    found.extend(with_imposed(f));
     found.retain(|s| !s.equations.is_empty() || s.id.starts_with("on-"));
     found
+}
+
+/// What follows where what is imposed is put in.
+fn with_imposed(f: &Functional) -> Option<EquationSection> {
+    let own = put_in(f)?;
+    let said = format!(
+        "With {} the fields that are left are varied freely; what follows stands here as far as it is short, with the place where it is not the interior.",
+        own.values.iter().map(|own| format!("`{own}`")).collect::<Vec<_>>().join(", ")
+    );
+    let on = own.boundary.into_iter().flat_map(|(piece, all)| {
+        all.into_iter().map(move |shown| Shown {
+            of: format!("{} on {piece}", shown.of),
+            ..shown
+        })
+    });
+    let mut all: Vec<Shown> = own.euler.into_iter().chain(on).collect();
+    all.retain(|shown| simplify::length(&f.space.graph, shown.value) <= LEGIBLE);
+    Some(EquationSection {
+        collapsed: true,
+        ..section(f, "put-in", "With what is imposed put in", &said, &all)
+    })
 }
 
 /// What is to be stationary.
@@ -273,6 +297,10 @@ fn inside(f: &Functional, variation: &Variation) -> Vec<EquationSection> {
     if !restricting.is_empty() {
         in_words.push_str(&format!(" That is so where all fields are varied freely; {restricting} restricts that, and only what the variations that are left ask has to hold."));
     }
+    let open = without_indices(f, variation);
+    if !open.is_empty() {
+        in_words.push_str(&format!(" {}: {NO_INDICES}.", in_print(&open.join(", "))));
+    }
     let has_pairs = f.interior().any(|field| field.shape == Shape::Symmetric);
     let in_components = if has_pairs && f.space.dimensions() > 1 {
         "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two."
@@ -317,11 +345,15 @@ fn on_pieces(f: &Functional, pieces: &[String], conditions: &[Shown]) -> Vec<Equ
     };
     let own = indexed_natural(f, piece).unwrap_or_default();
     if own.is_empty() {
-        let free = match (conditions.is_empty(), fixed.is_empty()) {
+        let mut free = match (conditions.is_empty(), fixed.is_empty()) {
             (true, true) => "Nothing is free here, or every coefficient vanishes.",
             (true, false) => "Nothing else is free.",
             _ => "The coefficient of each variation that is free here vanishes.",
-        };
+        }
+        .to_owned();
+        if is_without_indices(f, piece, conditions) {
+            free.push_str(&format!(" They stand {NO_INDICES}."));
+        }
         return vec![section(
             f,
             &id,

@@ -1,10 +1,12 @@
 //! The text for a terminal.
 
 use super::equations::{
-    absent, boundary, dependence, euler, given, in_order, indexed_euler, indexed_natural, joined,
-    kind, restricting, used, Indexed, Shown,
+    absent, boundary, dependence, euler, given, in_order, indexed_euler, indexed_natural,
+    is_without_indices, joined, kind, restricting, used, without_indices, Indexed, Shown,
+    NO_INDICES,
 };
 use super::page::LEGIBLE;
+use super::put_in::put_in;
 use super::table;
 use crate::layout::{hanging, terms};
 use crate::summary::{bold, coloured, Style};
@@ -24,6 +26,7 @@ pub fn summary(study: &Study, style: Style) -> String {
     heading(&mut text, study, style);
     stated(&mut text, study, style);
     derived(&mut text, study, style);
+    with_imposed(&mut text, study, style);
     levels(&mut text, study, style);
     let _ = writeln!(text, "\n{}", bold(style, "claims"));
     claims(&mut text, study, style);
@@ -58,6 +61,11 @@ fn derived(text: &mut String, study: &Study, style: Style) {
         &indexed_euler(f, variation),
         &euler(f, variation),
     );
+    let open = without_indices(f, variation);
+    if !open.is_empty() {
+        let said = format!("{} {NO_INDICES}", open.join(", "));
+        text.push_str(&hanging("    ", &said));
+    }
     let _ = writeln!(text, "\n{}", bold(style, "boundary conditions"));
     for (pieces, conditions) in joined(f, boundary(f, variation)) {
         text.push_str(&hanging("  on ", &pieces.join(", ")));
@@ -72,6 +80,43 @@ fn derived(text: &mut String, study: &Study, style: Style) {
         } else {
             both(text, study, &indexed, &conditions);
         }
+        if is_without_indices(f, piece, &conditions) {
+            let said = format!("the conditions here {NO_INDICES}");
+            text.push_str(&hanging("    ", &said));
+        }
+    }
+}
+
+/// What follows where what is imposed is put in.
+fn with_imposed(text: &mut String, study: &Study, style: Style) {
+    let f = &study.problem.functional;
+    let Some(own) = put_in(f) else { return };
+    let _ = writeln!(text, "\n{}", bold(style, "with what is imposed put in"));
+    text.push_str(&hanging("    ", &own.values.join(", ")));
+    let g = &f.space.graph;
+    let is_written = |own: &Shown| simplify::length(g, own.value) <= WRITTEN;
+    let mut shown = |own: Vec<Shown>| {
+        let (short, long): (Vec<Shown>, Vec<Shown>) = own.into_iter().partition(is_written);
+        equations(text, study, &short);
+        for own in long {
+            let signs = simplify::length(g, own.value);
+            let _ = writeln!(text, "    {:<12} an expression of {signs} signs", own.of);
+        }
+    };
+    shown(own.euler);
+    for (pieces, conditions) in joined(&own.functional, own.boundary) {
+        if conditions.is_empty() {
+            continue;
+        }
+        shown(
+            conditions
+                .into_iter()
+                .map(|own| Shown {
+                    of: format!("{} on {}", own.of, pieces.join(", ")),
+                    ..own
+                })
+                .collect(),
+        );
     }
 }
 

@@ -1,6 +1,8 @@
 //! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
 
+use crate::elimination::factors_of;
 use crate::functional::{Functional, Role};
+use crate::notation::denominators;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Relation, SignSet};
 use chetaev_symbolic::zero::known_sign;
@@ -32,6 +34,8 @@ pub(super) fn where_defined(functional: &Functional) -> Option<Vec<Needed>> {
     densities.extend(functional.pieces.iter().map(|piece| piece.density));
     let mut all = conditions(functional, &densities, Need::Slope);
     all.extend(conditions(functional, &stated, Need::Value));
+    let written = denominators(functional).into_iter();
+    all.extend(written.flat_map(|e| not_zero(functional, e)));
     let g = &functional.space.graph;
     let mut needed = Vec::new();
     let mut together = functional.space.assumptions();
@@ -46,6 +50,18 @@ pub(super) fn where_defined(functional: &Functional) -> Option<Vec<Needed>> {
         }
     }
     Some(needed)
+}
+
+/// That the factors of a denominator in which fields or data occur do not vanish, also where it cancels.
+fn not_zero(functional: &Functional, e: Expr) -> Vec<Needed> {
+    let space = &*functional.space;
+    let relation = Relation::NotEqual;
+    let mut factors = factors_of(space, space.explicit(e));
+    factors.retain(|&factor| !space.jets_in(&[factor]).is_empty());
+    factors
+        .into_iter()
+        .map(|of| Needed { of, relation })
+        .collect()
 }
 
 /// ", where …", or nothing.

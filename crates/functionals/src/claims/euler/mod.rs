@@ -72,7 +72,7 @@ impl Claim for Euler {
             )
             .into();
         }
-        let own = reduced(functional);
+        let own = reduced(functional).functional;
         let verdict = match branches(&own) {
             // Where only one branch is possible its signs are known everywhere.
             Some(all) => match all.as_slice() {

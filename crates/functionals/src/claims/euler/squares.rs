@@ -5,7 +5,6 @@
 
 use crate::elimination::Group;
 use crate::functional::{Functional, Piece, Role};
-use crate::space::Space;
 use chetaev_symbolic::Expr;
 
 /// The density of the interior as an equation, where it vanishes for stationary fields.
@@ -43,17 +42,15 @@ fn is_sum_of_squares(functional: &Functional) -> bool {
     let is_free = functional.with_role(Role::Imposed).next().is_none()
         && pieces.clone().all(|piece| piece.fixed.is_empty())
         && !space.coordinates.iter().any(|own| own.is_time);
-    is_free && densities.all(|e| space.sign(e).is_nonnegative() && is_of_second_degree(space, e))
+    is_free
+        && densities.all(|e| space.sign(e).is_nonnegative() && is_of_second_degree(functional, e))
 }
 
 /// Whether an expression of varied fields becomes four times itself where all of them are doubled.
-fn is_of_second_degree(space: &Space, e: Expr) -> bool {
+fn is_of_second_degree(functional: &Functional, e: Expr) -> bool {
+    let space = &*functional.space;
     let g = &space.graph;
     let e = space.explicit(e);
-    let is_varied = |component: usize| {
-        let own = space.component_at(component);
-        own.is_varied || own.is_of_boundary
-    };
     let doubled = space.replace(e, &|symbol| {
         space.as_jet(symbol)?;
         Some(g.mul(&[g.integer(2), g.symbol_expr(symbol)]))
@@ -62,6 +59,6 @@ fn is_of_second_degree(space: &Space, e: Expr) -> bool {
     space
         .jets_in(&[e])
         .iter()
-        .all(|jet| is_varied(jet.component))
+        .all(|jet| functional.varies(jet.component))
         && space.vanish(&[difference])
 }
