@@ -9,7 +9,7 @@ use crate::real_zeros::real_zeros;
 use crate::steady_value::{precision, Generators, Unknown};
 use chetaev_symbolic::number::ball::Ball;
 use chetaev_symbolic::polynomial::{
-    triangular_systems, Budget, Meter, Monomial, Polynomial, TooLarge, TriangularSystem,
+    triangular_systems, Budget, Meter, Monomial, Polynomial, TooLarge, TriangularSystem, Vanish,
 };
 use dashu_int::IBig;
 use dashu_ratio::RBig;
@@ -21,6 +21,8 @@ pub(crate) struct RealParts<'a> {
     pub(crate) unknowns: &'a [Unknown],
     /// The generators that are determined, in this order.
     pub(crate) order: &'a [usize],
+    /// Which polynomials in numbers alone are zero.
+    pub(crate) vanish: Vanish<'a>,
 }
 
 impl RealParts<'_> {
@@ -58,7 +60,7 @@ impl RealParts<'_> {
         let equations = system.equations.iter().map(|(_, p)| p.clone());
         let own = self.vanishing.iter().cloned();
         let all: Vec<Polynomial> = own.chain(equations).chain(further).collect();
-        triangular_systems(&all, &system.nonzero, self.order, meter).map(Some)
+        triangular_systems(&all, &system.nonzero, self.order, (self.vanish, meter)).map(Some)
     }
 
     /// What vanishes at the real zeros of a family besides its equations.

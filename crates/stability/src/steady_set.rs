@@ -18,7 +18,7 @@ use crate::steady_value::{Generators, Unknown};
 pub use crate::steady_value::{SteadySetError, Value};
 use chetaev_mechanics::constraint::{Constraint, ConstraintKind};
 use chetaev_mechanics::{MotionTerms, Selection, System};
-use chetaev_symbolic::common_zeros::{angles, needed_relations};
+use chetaev_symbolic::common_zeros::{angles, needed_relations, Numbers};
 use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
@@ -153,13 +153,22 @@ fn in_chart(
     let meter = field.meter();
     let vanishing = &polynomials[..count];
     let vanishing: Vec<Polynomial> = vanishing.iter().chain(&relations).cloned().collect();
-    let chains = triangular_systems(&vanishing, &denominators, &order, meter)?;
+    let numbers = Numbers::new(&field);
+    let vanish = |p: &Polynomial| numbers.vanish(p);
+    if denominators.iter().any(|p| vanish(p) == Some(true)) {
+        return Err(SteadySetError::Undefined);
+    }
+    let chains = triangular_systems(&vanishing, &denominators, &order, (&vanish, meter))?;
     let elimination = RealParts {
         vanishing: &vanishing,
         unknowns: &unknowns,
         order: &order,
+        vanish: &vanish,
     };
     let chains = elimination.of(chains);
+    if let Some(number) = numbers.undecided() {
+        return Err(SteadySetError::Undecided { number });
+    }
     let anywhere = equations.others().into_iter();
     let anywhere: Vec<Symbol> = anywhere.map(|j| system.coordinates[j].q_symbol).collect();
     let mut found = Vec::new();

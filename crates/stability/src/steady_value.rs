@@ -36,6 +36,12 @@ pub enum SteadySetError {
     /// Their solution is.
     #[error("the equations of steady motion are too large to be solved exactly: {0}")]
     TooLarge(#[from] TooLarge),
+    /// A number that may be zero.
+    #[error("whether {number} is zero was not decided")]
+    Undecided {
+        /// The number.
+        number: String,
+    },
     /// The real zeros of a polynomial were not told apart.
     #[error("the real zeros of {polynomial} were not enclosed one by one")]
     NotEnclosed {

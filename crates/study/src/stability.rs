@@ -597,10 +597,7 @@ impl Stability {
                     .map(|(_, value)| *value)
             }
         };
-        let number = |e: &Expr| {
-            g.evaluate_f64(&[*e], &value)
-                .map_or(f64::NAN, |found| found[0])
-        };
+        let number = |e: &Expr| decimal::value(g, *e, &value).unwrap_or(f64::NAN);
         rows.iter()
             .map(|row| row.iter().map(number).collect())
             .collect()

@@ -3,12 +3,17 @@
 //! They are a union of sets, each given by equations of which each determines one symbol by those before it, irreducible and without powers:
 //! the zeros of `x² + y² − 1` and `x − 1` are those of `x − 1` and `y`. See [`triangular_systems`].
 
-use crate::polynomial::normal_form::{normal_forms, Field, Kind, NormalFormError, Options};
+use crate::number::ball::Precision;
+use crate::polynomial::normal_form::{
+    normal_form, normal_forms, Field, Kind, NormalFormError, Options,
+};
 use crate::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
 use crate::real_factors::zero_set;
 use crate::zero::assumptions::Assumptions;
 use crate::zero::known_sign;
+use crate::zero::separation::vanishes;
 use crate::{Expr, Graph, Node, Symbol};
+use std::cell::RefCell;
 
 /// A part of the common zeros.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +32,12 @@ pub enum CommonZerosError {
     NotPolynomial {
         /// What it contains.
         what: String,
+    },
+    /// A number that was divided by may be zero.
+    #[error("whether {number} is zero was not decided")]
+    Undecided {
+        /// The number.
+        number: String,
     },
     /// The functions are too large, or nowhere defined.
     #[error(transparent)]
@@ -104,7 +115,12 @@ pub fn common_zeros(
     let order = order(&field, symbols, &vanishing)?;
     vanishing.extend(relations.iter().cloned());
     let generators: Vec<usize> = order.iter().map(|&(generator, _)| generator).collect();
-    let found = triangular_systems(&vanishing, &nonzero, &generators, field.meter())?;
+    let numbers = Numbers::new(&field);
+    let vanish = |p: &Polynomial| numbers.vanish(p);
+    let found = triangular_systems(&vanishing, &nonzero, &generators, (&vanish, field.meter()))?;
+    if let Some(number) = numbers.undecided() {
+        return Err(CommonZerosError::Undecided { number });
+    }
     let symbol_of = |generator: usize| {
         let mut own = order.iter().filter(|(own, _)| *own == generator);
         own.next().map(|(_, symbol)| *symbol)
@@ -122,6 +138,57 @@ pub fn common_zeros(
         }
     };
     Ok(found.into_iter().map(|s| part(s.equations)).collect())
+}
+
+/// Polynomials in generators that stand for numbers, as √2, π and cos 1: which of them are zero. Generators are independent by their relations
+/// only, and numbers need not be: cos(2π/7) + cos(4π/7) + cos(6π/7) = −1/2.
+pub struct Numbers<'a, 'g> {
+    field: &'a Field<'g>,
+    undecided: RefCell<Option<String>>,
+}
+
+/// Bits of the enclosures of numbers that are no algebraic ones.
+const BITS: usize = 512;
+
+impl<'a, 'g> Numbers<'a, 'g> {
+    /// Of this field.
+    pub fn new(field: &'a Field<'g>) -> Self {
+        Numbers {
+            field,
+            undecided: RefCell::new(None),
+        }
+    }
+
+    /// Whether a polynomial is zero; `None` where a symbol occurs in it. One of which that is not decided is kept.
+    pub fn vanish(&self, p: &Polynomial) -> Option<bool> {
+        let g = self.field.graph();
+        let holds_symbol = |&at: &usize| {
+            let own = self.field.generators()[at].expr;
+            !g.symbols_in(&[own]).is_empty()
+        };
+        if p.generators().iter().any(holds_symbol) {
+            return None;
+        }
+        let e = self.field.polynomial_expression(p);
+        // By its form, as sin² 1 + cos² 1 − 1, or else by its size.
+        if normal_form(g, e, &Budget::PROOF).is_ok_and(|form| form.is_zero()) {
+            return Some(true);
+        }
+        vanishes(g, e).or_else(|| {
+            let found = g.enclose(&[e], &Precision::new(BITS), &|_| None);
+            let is_apart = found.is_ok_and(|found| found[0].excludes_zero());
+            if !is_apart {
+                let mut undecided = self.undecided.borrow_mut();
+                undecided.get_or_insert_with(|| g.text(e));
+            }
+            is_apart.then_some(false)
+        })
+    }
+
+    /// A number of which was not decided whether it is zero.
+    pub fn undecided(&self) -> Option<String> {
+        self.undecided.borrow().clone()
+    }
 }
 
 /// The symbols that stand inside of functions: their sines and cosines are unknowns.

@@ -51,6 +51,50 @@ fn are(own: &SteadySet, expected: &[&[f64]]) {
     }
 }
 
+/// Numbers that are zero though no form shows it leave (x, x) at rest for all x: cos(2π/7) + cos(4π/7) + cos(6π/7) = −1/2,
+/// cos 20° cos 40° cos 80° = 1/8, √2 + √3 = √(5 + 2√6). Where that is not decided nothing is said, as of Machin's 16 atan(1/5) − 4 atan(1/239) = π.
+/// A number that is none leaves the origin.
+#[test]
+fn numbers_that_are_zero_by_no_form_leave_a_family() {
+    let set_of = |number: &str| {
+        set(&Case::new(&format!(
+            r#"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 + y'^2)/2 - (x - y)^2 - ({number}) x y"
+forces = {{ x = "-x'", y = "-y'" }}
+"#
+        )))
+    };
+    for zero in [
+        "cos(2 pi/7) + cos(4 pi/7) + cos(6 pi/7) + 1/2",
+        "cos(pi/9) cos(2 pi/9) cos(4 pi/9) - 1/8",
+        "sqrt(2) + sqrt(3) - sqrt(5 + 2 sqrt(6))",
+    ] {
+        let found = set_of(zero).unwrap().found;
+        let dimensions: Vec<usize> = found.iter().map(Found::dimension).collect();
+        assert_eq!(dimensions, [1], "{zero}");
+    }
+    for open in [
+        "16 atan(1/5) - 4 atan(1/239) - pi",
+        "log(6) - log(2) - log(3)",
+    ] {
+        let said = set_of(open);
+        assert!(
+            matches!(said, Err(SteadySetError::Undecided { .. })),
+            "{open}: {said:?}"
+        );
+    }
+    for other in [
+        "cos(2 pi/7) + cos(4 pi/7) + cos(6 pi/7) + 1/3",
+        "sqrt(2) + sqrt(3) - sqrt(5 + 2 sqrt(7))",
+        "sin(1) + cos(1) - pi/3",
+    ] {
+        let found = set_of(other).unwrap().found;
+        let dimensions: Vec<usize> = found.iter().map(Found::dimension).collect();
+        assert_eq!(dimensions, [0], "{other}");
+    }
+}
+
 #[test]
 fn a_double_pendulum_hangs_and_stands_in_four_ways() {
     let own = found(&Case::gallery("double-pendulum"));

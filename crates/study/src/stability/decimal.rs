@@ -2,7 +2,7 @@
 
 use crate::decimals::real;
 use chetaev_symbolic::factors::coefficients;
-use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// Bits of the coefficients: exact ones may be sums that cancel.
@@ -90,10 +90,22 @@ fn terms(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<Term>> {
     (rest == 0.0).then_some(found)
 }
 
+/// A number rounded, with all digits also where large parts cancel; symbols have the values given.
+pub(super) fn value(g: &Graph, e: Expr, of: &dyn Fn(Symbol) -> Option<f64>) -> Option<f64> {
+    let enclosed = |symbol: Symbol| Ball::from_f64(of(symbol)?);
+    let found = g.enclose(&[e], &Precision::new(BITS), &enclosed);
+    let found = found.ok().and_then(|found| {
+        let own = &found[0];
+        let is_known = own.radius().is_zero() || own.excludes_zero();
+        is_known.then(|| own.to_f64())
+    });
+    found.or_else(|| g.evaluate_f64(&[e], of).ok()?.first().copied())
+}
+
 /// An expression in the notation of models, where algebraic numbers have none: these are in decimals.
 pub(super) fn notation(g: &Graph, e: Expr) -> String {
     let rounded = || decimal_polynomial(g, e, &g.symbols_in(&[e]));
-    let value = || Some(g.evaluate_f64(&[e], &|_| None).ok()?[0].to_string());
+    let value = || Some(value(g, e, &|_| None)?.to_string());
     let found = g.holds_algebraic(e).then(|| value().or_else(rounded));
     found.flatten().unwrap_or_else(|| g.text(e))
 }

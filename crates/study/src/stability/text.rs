@@ -1,6 +1,6 @@
 //! What was asked of a steady motion, in words and columns for a terminal.
 
-use super::decimal::{decimal_polynomial, notation};
+use super::decimal::{decimal_polynomial, notation, value};
 use super::{named_parts, Eigenvalues, Mode, Numbers, Stability};
 use crate::decimals::Decimals;
 use chetaev_mechanics::system::Parameter;
@@ -517,9 +517,7 @@ fn shown(g: &Graph, e: Expr) -> String {
         return exact;
     }
     match g.symbols_in(&[e]).as_slice() {
-        [] => g
-            .evaluate_f64(&[e], &|_| None)
-            .map_or(exact, |value| format!("{}", value[0])),
+        [] => value(g, e, &|_| None).map_or(exact, |value| format!("{value}")),
         only @ [_] => decimal_polynomial(g, e, only).unwrap_or(exact),
         _ => exact,
     }

@@ -442,3 +442,24 @@ x = "sqrt(b - 3)"
     let expected: Vec<bool> = (-7..=3).map(|b| b < 3).collect();
     assert_eq!(rows(&below), expected, "{below}");
 }
+
+/// √(10¹² + 1) − 10⁶ = 4.99999999999875·10⁻⁷ and √(10⁸⁰ + 1) − 10⁴⁰ = 5·10⁻⁴¹: matrices, polynomials and modes have these, where doubles lose all digits.
+#[test]
+fn numbers_of_large_parts_that_cancel_have_all_digits() {
+    for (stiffness, value) in [
+        ("sqrt(1000000000001) - 1000000", 4.99999999999875e-7_f64),
+        ("sqrt(10^80 + 1) - 10^40", 5e-41),
+    ] {
+        let own = at_rest(
+            &["x"],
+            &format!("lagrangian = \"x'^2/2 - ({stiffness}) x^2/2\""),
+        );
+        let found = own.eigenvalues_at(None).unwrap().values;
+        let rate = value.sqrt();
+        assert!(found.iter().all(|l| l.0 == 0.0), "{found:?}");
+        assert!((found[0].1.abs() - rate).abs() < 1e-14 * rate, "{found:?}");
+        let all = own.matrices().matrices;
+        let (_, a, _) = all.iter().find(|own| own.0 == "A").unwrap();
+        assert!((a[1][0] + value).abs() < 1e-14 * value, "{a:?}");
+    }
+}

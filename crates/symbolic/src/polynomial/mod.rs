@@ -28,7 +28,7 @@ pub use factor::Factorization;
 pub use monomial::Monomial;
 pub use rational_function::RationalFunction;
 pub use sparse::Polynomial;
-pub use triangular::{triangular_systems, TriangularSystem};
+pub use triangular::{triangular_systems, TriangularSystem, Vanish};
 
 #[cfg(test)]
 mod tests;

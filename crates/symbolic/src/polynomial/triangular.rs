@@ -22,7 +22,7 @@ pub struct TriangularSystem {
 
 /// Triangular systems whose zeros are together the common zeros of `polynomials` at which no polynomial of `nonzero` vanishes. None of them
 /// contains another whose equations can be solved everywhere. `order` has the generators to be determined, those that are eliminated last first; all others are parameters in general
-/// position, of which no polynomial but 0 vanishes.
+/// position, of which no polynomial but 0 vanishes, or numbers: of a polynomial in numbers alone `vanish` says whether it is zero.
 ///
 /// # Errors
 /// [`TooLarge`] when the work exceeds the budget, or more than some thousand branches are needed.
@@ -30,9 +30,13 @@ pub fn triangular_systems(
     polynomials: &[Polynomial],
     nonzero: &[Polynomial],
     order: &[usize],
-    meter: &Meter,
+    (vanish, meter): (Vanish<'_>, &Meter),
 ) -> Result<Vec<TriangularSystem>, TooLarge> {
-    let elimination = Elimination { order, meter };
+    let elimination = Elimination {
+        order,
+        vanish,
+        meter,
+    };
     let mut start = vec![Branch {
         nonzero: nonzero_factors(nonzero, meter)?,
         ..Branch::default()
@@ -58,6 +62,9 @@ pub fn triangular_systems(
     let given = &nonzero_factors(nonzero, meter)?;
     elimination.without_contained(found, given)
 }
+
+/// Whether a polynomial in numbers alone is zero; `None` where other generators occur in it, or that is not known.
+pub type Vanish<'a> = &'a dyn Fn(&Polynomial) -> Option<bool>;
 
 fn nonzero_factors(nonzero: &[Polynomial], meter: &Meter) -> Result<Vec<Polynomial>, TooLarge> {
     let mut all = Vec::new();
@@ -93,6 +100,7 @@ enum Step {
 
 struct Elimination<'a> {
     order: &'a [usize],
+    vanish: Vanish<'a>,
     meter: &'a Meter,
 }
 
@@ -111,17 +119,25 @@ impl Elimination<'_> {
         if p.is_constant() {
             return Ok(Vec::new());
         }
+        let all_factors = factors(p, self.meter)?;
+        let opened = |mut own: Branch, factor: &Polynomial| {
+            if self.class(factor).is_some() && !own.open.contains(factor) {
+                own.open.push(factor.clone());
+            }
+            own
+        };
+        let is_zero = |factor: &&Polynomial| (self.vanish)(factor) == Some(true);
+        if let Some(zero) = all_factors.iter().find(is_zero) {
+            return Ok(vec![opened(branch, zero)]);
+        }
         let (mut rest, mut all) = (branch, Vec::new());
-        for factor in factors(p, self.meter)? {
+        for factor in all_factors {
             if rest.nonzero.contains(&factor) {
                 continue;
             }
-            if self.class(&factor).is_some() {
-                let mut own = rest.clone();
-                if !own.open.contains(&factor) {
-                    own.open.push(factor.clone());
-                }
-                all.push(own);
+            let is_number = (self.vanish)(&factor).is_some();
+            if self.class(&factor).is_some() && !is_number {
+                all.push(opened(rest.clone(), &factor));
             }
             rest.nonzero.push(factor);
         }
@@ -186,6 +202,9 @@ impl Elimination<'_> {
         for factor in factors {
             for own in self.with(rest.clone(), &factor)? {
                 all.extend(self.with(own, &below)?);
+            }
+            if (self.vanish)(&factor) == Some(true) {
+                return Ok(Step::Further(all));
             }
             rest.nonzero.push(factor);
         }
@@ -360,6 +379,11 @@ mod tests {
         [0, 1, 2].map(Polynomial::generator)
     }
 
+    /// No generator stands for a number.
+    fn none(_: &Polynomial) -> Option<bool> {
+        None
+    }
+
     fn number(value: i64) -> Polynomial {
         Polynomial::constant(value)
     }
@@ -372,7 +396,8 @@ mod tests {
         let square = |p: &Polynomial| p.mul(p, &meter).unwrap();
         let circle = square(&x).add(&square(&y)).sub(&number(2));
         let hyperbola = x.mul(&y, &meter).unwrap().sub(&number(1));
-        let found = triangular_systems(&[circle, hyperbola], &[], &[0, 1], &meter).unwrap();
+        let found =
+            triangular_systems(&[circle, hyperbola], &[], &[0, 1], (&none, &meter)).unwrap();
         let mut points: Vec<Vec<Polynomial>> = found
             .into_iter()
             .map(|system| system.equations.into_iter().map(|(_, p)| p).collect())
@@ -393,7 +418,7 @@ mod tests {
         let [x, y, z] = generators();
         let times = |a: &Polynomial, b: &Polynomial| a.mul(b, &meter).unwrap();
         let polynomials = [times(&x, &y), times(&x, &z)];
-        let found = triangular_systems(&polynomials, &[], &[0, 1, 2], &meter).unwrap();
+        let found = triangular_systems(&polynomials, &[], &[0, 1, 2], (&none, &meter)).unwrap();
         let mut equations: Vec<Vec<Polynomial>> = found
             .iter()
             .map(|system| system.equations.iter().map(|(_, p)| p.clone()).collect())
@@ -410,13 +435,13 @@ mod tests {
         let times = |a: &Polynomial, b: &Polynomial| a.mul(b, &meter).unwrap();
         let curve = times(&times(&x, &x), &y).sub(&x);
         assert_eq!(
-            triangular_systems(&[curve], &[], &[0, 1], &meter)
+            triangular_systems(&[curve], &[], &[0, 1], (&none, &meter))
                 .unwrap()
                 .len(),
             2
         );
         let polynomials = [z.clone(), times(&x, &z.add(&number(1))), times(&x, &y)];
-        let found = triangular_systems(&polynomials, &[], &[1, 0, 2], &meter).unwrap();
+        let found = triangular_systems(&polynomials, &[], &[1, 0, 2], (&none, &meter)).unwrap();
         assert_eq!(found.len(), 1, "{found:?}");
     }
 
@@ -426,9 +451,31 @@ mod tests {
         let meter = Meter::new(Budget::PROOF);
         let [a, x, _] = generators();
         let line = a.mul(&x, &meter).unwrap().sub(&number(1));
-        let found = triangular_systems(std::slice::from_ref(&line), &[], &[1], &meter).unwrap();
+        let found =
+            triangular_systems(std::slice::from_ref(&line), &[], &[1], (&none, &meter)).unwrap();
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].equations, [(1, line)]);
         assert_eq!(found[0].nonzero, [a]);
+    }
+
+    /// Of numbers a and b with a = b the equation (a − b) x = 0 says nothing, and (a − b) x = 1 has no zero.
+    #[test]
+    fn numbers_that_are_zero_vanish() {
+        let meter = Meter::new(Budget::PROOF);
+        let [a, b, x] = generators();
+        let difference = a.sub(&b);
+        let is_known = |p: &Polynomial| {
+            let is_of_numbers = p.degree_in(2) == 0;
+            is_of_numbers.then(|| *p == difference || *p == difference.neg())
+        };
+        let line = difference.mul(&x, &meter).unwrap();
+        let solved = |p: &Polynomial| {
+            triangular_systems(std::slice::from_ref(p), &[], &[2], (&is_known, &meter)).unwrap()
+        };
+        let whole = solved(&line);
+        assert_eq!(whole.len(), 1);
+        assert!(whole[0].equations.is_empty(), "{whole:?}");
+        assert!(solved(&line.sub(&number(1))).is_empty());
+        assert_eq!(solved(&a.mul(&x, &meter).unwrap())[0].equations, [(2, x)]);
     }
 }
