@@ -73,6 +73,10 @@ impl Solved<'_> {
             }
             groups.retain(|group| !group.equations.is_empty());
             self.left = groups;
+            // Where one says that a number is zero, the others need no solution.
+            if self.says_that_a_number_vanishes() {
+                return;
+            }
             let best = self.best();
             let conjugate = match &best {
                 Some(choice) if choice.cost.0 < CONJUGATE => None,
@@ -98,6 +102,14 @@ impl Solved<'_> {
                 },
             }
         }
+    }
+
+    fn says_that_a_number_vanishes(&self) -> bool {
+        let mut all = self.left.iter().flat_map(|group| &group.equations);
+        all.any(|&e| {
+            let number = self.space.graph.as_number(e);
+            number.is_some_and(|number| !number.is_zero())
+        })
     }
 
     /// What a positive power is of: both vanish together.

@@ -447,3 +447,41 @@ fn a_stated_field_is_stationary_for_the_variations_that_are_admitted() {
     let multiplier = "[multipliers]\nb = \"-m\"\n";
     assert_eq!(word("1/2", multiplier), "proved");
 }
+
+/// Of ∫ (½ u,xy² − q u) with x = 1 and y = 1 free follows u,xy = 0 at their corner (by parts twice), and nothing where u is imposed there.
+#[test]
+fn what_is_imposed_at_a_corner_is_not_varied_there() {
+    let word = |imposed: &str| {
+        let text = format!(
+            r#"
+kind = "functional"
+name = "corner"
+density = "1/2 u,xy^2 - q u"
+imposed = [{imposed}]
+yields = ["e", "r", "t", "c"]
+[domain]
+coordinates = ["x", "y"]
+intervals = {{ x = [0, 1], y = [0, 1] }}
+[fields]
+u = "scalar"
+[data]
+q = "scalar"
+[boundary]
+"x = 0" = {{ fixed = ["u"] }}
+"x = 1" = "0"
+"y = 0" = {{ fixed = ["u"] }}
+"y = 1" = "0"
+[equations]
+e = "u,xxyy = q"
+r = {{ equation = "u,xyy = 0", on = "x = 1" }}
+t = {{ equation = "u,xxy = 0", on = "y = 1" }}
+c = {{ equation = "u,xy = 0", on = "x = 1, y = 1" }}
+z = {{ equation = "u = 0", on = "x = 1, y = 1" }}
+"#
+        );
+        let study = studied_text("p4p", &text, &[]);
+        decided(&study, "functional.euler").word().to_owned()
+    };
+    assert_eq!(word(""), "proved");
+    assert_ne!(word("\"z\""), "proved");
+}

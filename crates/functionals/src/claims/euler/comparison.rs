@@ -7,7 +7,7 @@ use crate::functional::{Equation, Functional, Piece, Role, Side};
 use crate::variation::{acting_at_edge, at_edge, Condition, Corner, OnPiece, Trace, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Which of the two systems that are compared.
@@ -26,8 +26,10 @@ pub(super) struct Comparison<'f> {
     pub(super) planes: &'f [Plane],
     /// What holds because it is imposed or derived.
     pub(super) derived: Solved<'f>,
-    /// What holds because it is imposed or stated.
-    pub(super) stated: Solved<'f>,
+    /// What holds because it is imposed.
+    imposed: Solved<'f>,
+    /// What holds because it is imposed or stated, once it was asked for.
+    stated: OnceCell<Solved<'f>>,
     /// What is derived on pieces, by name.
     on_pieces: RefCell<BTreeMap<String, Solved<'f>>>,
     /// What was divided by and has no value.
@@ -78,13 +80,20 @@ impl<'f> Comparison<'f> {
             variation,
             planes,
             derived: imposed.with(&derived),
-            stated: imposed.with(&inside(Role::Yielded)),
+            imposed,
+            stated: OnceCell::new(),
             on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
             refutes: true,
             contradicts_at_corner: Cell::new(false),
             extended: RefCell::default(),
         }
+    }
+
+    /// What holds because it is imposed or stated. Where a stated equation does not follow nobody asks.
+    pub(super) fn stated(&self) -> &Solved<'f> {
+        let groups = || groups(self.functional, Role::Yielded, None);
+        self.stated.get_or_init(|| self.imposed.with(&groups()))
     }
 
     /// The comparison of another functional with the same interior.
@@ -98,6 +107,7 @@ impl<'f> Comparison<'f> {
             variation,
             planes: &[],
             derived: self.derived.clone(),
+            imposed: self.imposed.clone(),
             stated: self.stated.clone(),
             on_pieces: RefCell::default(),
             nonzero: RefCell::default(),
@@ -121,10 +131,14 @@ impl<'f> Comparison<'f> {
         {
             judged.push(self.equation(equation, &self.derived, &euler));
         }
+        // One equation that fails is enough, whatever else is to be said.
+        if let Some(refuted) = refutation(&judged) {
+            return refuted;
+        }
         for &(component, value) in &self.variation.euler {
             let name = self.functional.space.component_at(component).name;
             let what = format!("the Euler equation of {name}");
-            let own = self.judge(what, &[value], &self.stated, &stated);
+            let own = self.judge(what, &[value], self.stated(), &stated);
             judged.push(self.as_whole(own, &[value], System::Stated, None));
         }
         let mut notes = |solved: &Solved<'_>| {
@@ -132,7 +146,7 @@ impl<'f> Comparison<'f> {
             inverted.extend(solved.inverted.iter().cloned());
         };
         notes(&self.derived);
-        notes(&self.stated);
+        notes(self.stated());
         for on in &self.variation.pieces {
             let (derived, stated) = self.piece(on, &mut judged);
             notes(&derived);
@@ -177,7 +191,7 @@ impl<'f> Comparison<'f> {
         let (here, ending): (Vec<&Corner>, Vec<&Corner>) = corners
             .filter(|c| holds_here(&c.place()))
             .partition(|c| is_here(&c.place()));
-        let (mut derived, mut stated) = (self.derived.clone(), self.stated.clone());
+        let (mut derived, mut stated) = (self.derived.clone(), self.stated().clone());
         for piece in place {
             let mut known = self.variation.pieces.iter();
             let Some(on) = known.find(|own| own.piece == piece.name) else {
@@ -251,7 +265,7 @@ impl<'f> Comparison<'f> {
                 if components.is_empty() || functional.space.dimensions() == 1 {
                     continue;
                 }
-                let mut stated = self.stated.clone();
+                let mut stated = self.stated().clone();
                 for piece in [one, other] {
                     let name = Some(piece.piece.as_str());
                     if let Some(own) = functional.piece(&piece.piece) {
@@ -305,7 +319,7 @@ impl<'f> Comparison<'f> {
             }
             System::Stated => {
                 let at_end: &AtEnd<'_, 'f> = &|on, piece| self.stated_on(on, piece);
-                self.is_carried(es, &self.stated, at_end, on)
+                self.is_carried(es, self.stated(), at_end, on)
             }
         };
         let (verdict, open) = if carried {
@@ -436,7 +450,7 @@ impl<'f> Comparison<'f> {
         let functional = self.functional;
         let name = Some(on.piece.as_str());
         let Some(piece) = functional.piece(&on.piece) else {
-            return (self.derived.clone(), self.stated.clone());
+            return (self.derived.clone(), self.stated().clone());
         };
         let (derived, stated) = (self.derived_on(on, piece), self.stated_on(on, piece));
         let conditions: Vec<Expr> = on.conditions.iter().map(|own| own.value).collect();
@@ -463,11 +477,8 @@ impl<'f> Comparison<'f> {
         inverted: &BTreeSet<String>,
     ) -> Verdict {
         let mut all = Verdict::Proved(Proof::exact("", ""));
-        // One equation that fails is enough, whatever is open about others.
-        for own in &judged {
-            if let (Verdict::Refuted(found), true) = (&own.verdict, own.open.is_empty()) {
-                return refuted(&own.what, found.clone());
-            }
+        if let Some(refuted) = refutation(&judged) {
+            return refuted;
         }
         // Where coefficients made of fields vanish is a case that was looked at.
         let mut pivots = pivots.clone();
@@ -574,7 +585,7 @@ impl<'f> Comparison<'f> {
     pub(super) fn stated_on(&self, on: &OnPiece, piece: &Piece) -> Solved<'f> {
         let name = Some(on.piece.as_str());
         let imposed = groups(self.functional, Role::Imposed, name);
-        let here = self.stated.with_on(&piece.side, &imposed);
+        let here = self.stated().with_on(&piece.side, &imposed);
         here.with(&groups(self.functional, Role::Yielded, name))
     }
 
@@ -635,6 +646,16 @@ pub(super) fn refuted(what: &str, found: Counterexample) -> Verdict {
         quantity: what.to_owned(),
         ..found
     })
+}
+
+/// The first equation that fails and was compared with a system that is solved.
+fn refutation(judged: &[Judged]) -> Option<Verdict> {
+    judged
+        .iter()
+        .find_map(|own| match (&own.verdict, own.open.is_empty()) {
+            (Verdict::Refuted(found), true) => Some(refuted(&own.what, found.clone())),
+            _ => None,
+        })
 }
 
 /// Where a proof holds.

@@ -396,7 +396,7 @@ impl<'f> Comparison<'f> {
     fn inside(&self, system: System) -> &Solved<'f> {
         match system {
             System::Derived => &self.derived,
-            System::Stated => &self.stated,
+            System::Stated => self.stated(),
         }
     }
 

@@ -122,7 +122,7 @@ fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option
     let comparison = Comparison::new(functional, &own, &[], &[]);
     let all = conditions.iter().filter(|own| own.excludes_zero());
     let mut all = all.map(|own| own.of);
-    all.find(|&e| comparison.derived.follows(&[e]) || comparison.stated.follows(&[e]))
+    all.find(|&e| comparison.derived.follows(&[e]) || comparison.stated().follows(&[e]))
 }
 
 /// The verdict where some expressions are known not to be negative.
