@@ -15,7 +15,7 @@ use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use chetaev_symbolic::{rational, Expr, Graph, Node, Symbol, Verdict};
 use nalgebra::DMatrix;
 use std::cmp::Ordering;
 
@@ -62,8 +62,13 @@ impl<'a> Expansion<'a> {
         motion: &'a SteadyMotion,
         (values, speeds): (&[(Expr, Expr)], Speeds),
     ) -> Result<Expansion<'a>, LinearizationError> {
-        let found = near(system, terms, selection, (motion, values))?;
         let g = &system.graph;
+        if let Some(divisor) = zero_divisor(system, values) {
+            return Err(LinearizationError::NotDefined {
+                divisor: g.text(divisor),
+            });
+        }
+        let found = near(system, terms, selection, (motion, values))?;
         let stated = found.positions.iter().chain(&found.velocities);
         let stated: Vec<Expr> = stated.flatten().copied().collect();
         let stated = g.substitute_all(&stated, values);
@@ -458,4 +463,21 @@ fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {
         .ok()?
         .pop()?;
     ball.excludes_zero().then(|| ball.to_decimal_interval(20))
+}
+
+/// What the model divides by and is zero for these values of the parameters, whatever the motion.
+fn zero_divisor(system: &System, values: &[(Expr, Expr)]) -> Option<Expr> {
+    let g = &system.graph;
+    let mut stated = vec![system.lagrangian];
+    stated.extend(&system.forces);
+    stated.extend(system.constraints.iter().map(|own| own.stated));
+    let divisor = |e: Expr| match g.node(e) {
+        Node::Power { base, exponent } => {
+            let is_below = g.as_number(*exponent).is_some_and(rational::is_negative);
+            is_below.then_some(*base)
+        }
+        _ => None,
+    };
+    let mut divisors = g.reachable(&stated).into_iter().filter_map(divisor);
+    divisors.find(|&base| g.is_zero(closed(g, g.substitute(base, values))))
 }

@@ -42,6 +42,12 @@ pub enum LinearizationError {
         /// The motion.
         motion: String,
     },
+    /// Something is divided by zero, whatever the motion.
+    #[error("the equations of motion have no value: they are divided by {divisor}, which is zero at the values of the parameters")]
+    NotDefined {
+        /// By what.
+        divisor: String,
+    },
     /// A position or a velocity that is no real number.
     #[error("there is no motion `{motion}`: {value} is not real")]
     NotReal {

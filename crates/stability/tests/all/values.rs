@@ -496,3 +496,16 @@ fn an_eigenvalue_that_touches_zero_does_not_pass() {
     let alone = of("c", "-x - (c^2 - 2)^2 (c - 1) x'").said("stability.linear", "rest");
     assert_eq!(alone, "c >= 1 or c = -sqrt(2)");
 }
+
+/// A stiffness 1/(p − 1) has no value at p = 1, and is left as it is for other values of p.
+#[test]
+fn what_is_divided_by_zero_is_refused() {
+    let energy = "L = \"1/2 x'^2 - x^2/(2 (p - 1))\"";
+    let case = oscillator("1", energy, "-x'");
+    let said = case.linear(case.named("s"), "").unwrap_err().to_string();
+    assert!(said.contains("divided by p - 1, which is zero"), "{said}");
+    assert!(case.linear(case.named("s"), "p").is_ok());
+    assert_eq!(case.said("stability.asymptotic", "s"), "p > 1");
+    let other = oscillator("2", energy, "-x'");
+    assert!(other.linear(other.named("s"), "").is_ok());
+}
