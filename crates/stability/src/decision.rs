@@ -455,13 +455,17 @@ impl Pieces {
             }
             return Verdict::undecided(format!("{known}not decided for {open}: {why}"));
         }
-        let counterexample = self.failing(about).map(|(piece, at)| Counterexample {
-            point: vec![PointValue {
-                name: self.name.clone(),
-                exact: Some(at.clone()),
-                enclosure: None,
-            }],
-            ..statement.counterexample(about, piece.place, Some(&at))
+        let counterexample = self.failing(about).map(|(piece, at)| {
+            let own = statement.counterexample(about, piece.place, Some(&at));
+            Counterexample {
+                point: vec![PointValue {
+                    name: self.name.clone(),
+                    exact: Some(at.clone()),
+                    enclosure: None,
+                }],
+                detail: self.placed(own.detail, &at),
+                ..own
+            }
         });
         let alone = self.borders.iter().filter(|b| b.holds.is_none());
         let alone: Vec<String> = alone.map(|b| b.place(&self.name)).collect();
@@ -495,6 +499,16 @@ impl Pieces {
                 ),
                 counterexample,
             },
+        }
+    }
+
+    /// What is said of one value, which for others may be another reason.
+    fn placed(&self, detail: String, at: &RBig) -> String {
+        let mut failing = self.pieces.iter().filter(|own| own.said == Said::Fails);
+        let first = failing.next().map(|own| own.place);
+        match failing.all(|own| Some(own.place) == first) {
+            true => detail,
+            false => format!("at {} = {}: {detail}", self.name, decimal(at)),
         }
     }
 

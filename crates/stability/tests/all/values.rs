@@ -509,3 +509,24 @@ fn what_is_divided_by_zero_is_refused() {
     let other = oscillator("2", energy, "-x'");
     assert!(other.linear(other.named("s"), "").is_ok());
 }
+
+/// Of L = (x'² + (1 + x²) s'²)/2 − x² at x = 0, s' = w the deviations have x'' = (w² − 2) x: pairs on the axis for |w| < √2, an eigenvalue right of it
+/// for |w| > √2. No w is asymptotically stable, and each reason is said of its own values.
+#[test]
+fn a_reason_is_said_of_its_own_values() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "s"]
+parameters = { w = 2 }
+lagrangian = "1/2 x'^2 + 1/2 (1 + x^2) s'^2 - x^2"
+[steady.o]
+x = 0
+"s'" = "w"
+"#,
+    );
+    let verdict = case.verdict("stability.asymptotic", "o");
+    assert_eq!(verdict.word(), "refuted");
+    let said = verdict.detail();
+    assert!(said.starts_with("at w = "), "{said}");
+    assert!(said.contains("false for w < -1.41"), "{said}");
+}
