@@ -123,14 +123,18 @@ pub(crate) fn zeros(g: &Graph, polynomial: &[Expr]) -> Option<Vec<(f64, f64)>> {
     for bits in BITS {
         let precision = Precision::new(bits);
         let coefficients = g.enclose(polynomial, &precision, &|_| None).ok()?;
+        // Of large parts that cancel more bits are needed.
+        let is_open = |own: &Ball| !own.is_exact() && !own.excludes_zero();
+        if coefficients.iter().any(is_open) {
+            continue;
+        }
         let zeros = Zeros {
             arithmetic: Arithmetic(&precision),
             coefficients,
             is_even,
         };
-        let begin = match open.take() {
-            Some(own) => own,
-            None => zeros.approximate()?,
+        let Some(begin) = open.take().or_else(|| zeros.approximate()) else {
+            continue;
         };
         let found = zeros.refined(begin)?;
         if let Some(rounded) = zeros.rounded(&found) {

@@ -7,6 +7,8 @@ use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// Bits of the coefficients: exact ones may be sums that cancel.
 const BITS: usize = 256;
+/// Bits of a number, one after the other until all its digits are known.
+const CANCELLING: [usize; 3] = [128, 512, 2048];
 /// Digits of a coefficient.
 const DIGITS: usize = 8;
 /// Larger whole numbers are written with a power of ten.
@@ -93,10 +95,11 @@ fn terms(g: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<Term>> {
 /// A number rounded, with all digits also where large parts cancel; symbols have the values given.
 pub(super) fn value(g: &Graph, e: Expr, of: &dyn Fn(Symbol) -> Option<f64>) -> Option<f64> {
     let enclosed = |symbol: Symbol| Ball::from_f64(of(symbol)?);
-    let found = g.enclose(&[e], &Precision::new(BITS), &enclosed);
-    let found = found.ok().and_then(|found| {
+    let found = CANCELLING.iter().find_map(|&bits| {
+        let found = g.enclose(&[e], &Precision::new(bits), &enclosed).ok()?;
         let own = &found[0];
-        let is_known = own.radius().is_zero() || own.excludes_zero();
+        let sizes = own.radius().log2_ceil().zip(own.magnitude().log2_ceil());
+        let is_known = sizes.is_none_or(|(radius, size)| radius < size - 56);
         is_known.then(|| own.to_f64())
     });
     found.or_else(|| g.evaluate_f64(&[e], of).ok()?.first().copied())
