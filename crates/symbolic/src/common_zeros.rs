@@ -149,6 +149,8 @@ pub struct Numbers<'a, 'g> {
 
 /// Bits of the enclosures of numbers that are no algebraic ones.
 const BITS: usize = 512;
+/// Bits of the first one.
+const FEW_BITS: usize = 96;
 
 impl<'a, 'g> Numbers<'a, 'g> {
     /// Of this field.
@@ -170,13 +172,20 @@ impl<'a, 'g> Numbers<'a, 'g> {
             return None;
         }
         let e = self.field.polynomial_expression(p);
+        let is_apart = |bits: usize| {
+            let found = g.enclose(&[e], &Precision::new(bits), &|_| None);
+            found.is_ok_and(|found| found[0].excludes_zero())
+        };
+        // Most numbers are far from zero, which costs little to see.
+        if g.as_number(e).is_some_and(|own| !own.is_zero()) || is_apart(FEW_BITS) {
+            return Some(false);
+        }
         // By its form, as sin² 1 + cos² 1 − 1, or else by its size.
         if normal_form(g, e, &Budget::PROOF).is_ok_and(|form| form.is_zero()) {
             return Some(true);
         }
         vanishes(g, e).or_else(|| {
-            let found = g.enclose(&[e], &Precision::new(BITS), &|_| None);
-            let is_apart = found.is_ok_and(|found| found[0].excludes_zero());
+            let is_apart = is_apart(BITS);
             if !is_apart {
                 let mut undecided = self.undecided.borrow_mut();
                 undecided.get_or_insert_with(|| g.text(e));
