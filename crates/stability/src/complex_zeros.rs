@@ -265,9 +265,12 @@ impl Zeros<'_> {
         let discs = self.discs(all)?;
         let rounded = |i: usize| {
             let (z, radius) = (&discs[i].center, &discs[i].radius);
-            let part = |x: &Ball, is_zero: bool| match is_zero {
-                true => Some(0.0),
-                false => self.is_known(x, radius).then(|| x.to_f64()),
+            let part = |x: &Ball, is_zero: bool| {
+                if is_zero {
+                    Some(0.0)
+                } else {
+                    self.is_known(x, radius).then(|| x.to_f64())
+                }
             };
             let is_real = self.is_own_image(&discs, i, z.conjugate());
             let turned = Complex {

@@ -506,9 +506,10 @@ impl Pieces {
     fn placed(&self, detail: String, at: &RBig) -> String {
         let mut failing = self.pieces.iter().filter(|own| own.said == Said::Fails);
         let first = failing.next().map(|own| own.place);
-        match failing.all(|own| Some(own.place) == first) {
-            true => detail,
-            false => format!("at {} = {}: {detail}", self.name, decimal(at)),
+        if failing.all(|own| Some(own.place) == first) {
+            detail
+        } else {
+            format!("at {} = {}: {detail}", self.name, decimal(at))
         }
     }
 

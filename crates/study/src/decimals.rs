@@ -42,9 +42,10 @@ impl Decimals {
 
     /// Parts that are not printed are smaller than this.
     fn error(self) -> f64 {
-        match self.is_exact {
-            true => 0.0,
-            false => f64::INFINITY,
+        if self.is_exact {
+            0.0
+        } else {
+            f64::INFINITY
         }
     }
 
@@ -94,9 +95,10 @@ impl Decimals {
 
     /// Whether a number has no digit in print but zeros.
     fn is_zero_in_print(self, x: f64) -> bool {
-        let least = match self.is_usual() {
-            true => 0.5 * 0.1_f64.powi(self.places as i32),
-            false => ROUNDED * self.largest,
+        let least = if self.is_usual() {
+            0.5 * 0.1_f64.powi(self.places as i32)
+        } else {
+            ROUNDED * self.largest
         };
         x.abs() < least
     }

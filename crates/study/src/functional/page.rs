@@ -5,7 +5,7 @@ use super::equations::{
     is_without_indices, joined, kind, labels, number, restricting, used, without_indices, Indexed,
     Shown, NO_INDICES,
 };
-use super::put_in::put_in;
+use super::substitution::substituted;
 use super::typesetting::{
     as_written, caption, field_name, formula, in_indices, in_print, vanishing, variation_name,
 };
@@ -225,7 +225,7 @@ fn sections(study: &Study) -> Vec<EquationSection> {
 
 /// What follows where what is imposed is put in.
 fn with_imposed(f: &Functional) -> Option<EquationSection> {
-    let own = put_in(f)?;
+    let own = substituted(f)?;
     let said = format!(
         "With {} the fields that are left are varied freely; what follows stands here as far as it is short, with the place where it is not the interior.",
         own.values.iter().map(|own| format!("`{own}`")).collect::<Vec<_>>().join(", ")

@@ -6,7 +6,7 @@ use super::equations::{
     NO_INDICES,
 };
 use super::page::LEGIBLE;
-use super::put_in::put_in;
+use super::substitution::substituted;
 use super::table;
 use crate::layout::{hanging, terms};
 use crate::summary::{bold, coloured, Style};
@@ -90,7 +90,7 @@ fn derived(text: &mut String, study: &Study, style: Style) {
 /// What follows where what is imposed is put in.
 fn with_imposed(text: &mut String, study: &Study, style: Style) {
     let f = &study.problem.functional;
-    let Some(own) = put_in(f) else { return };
+    let Some(own) = substituted(f) else { return };
     let _ = writeln!(text, "\n{}", bold(style, "with what is imposed put in"));
     text.push_str(&hanging("    ", &own.values.join(", ")));
     let g = &f.space.graph;

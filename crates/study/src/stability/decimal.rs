@@ -57,9 +57,10 @@ fn written(g: &Graph, symbols: &[Symbol], terms: &[Term]) -> String {
 
 /// Whole numbers as they are.
 fn coefficient(value: f64) -> String {
-    match value.fract() == 0.0 && value.abs() < WHOLE {
-        true => format!("{value}"),
-        false => real(value, DIGITS),
+    if value.fract() == 0.0 && value.abs() < WHOLE {
+        format!("{value}")
+    } else {
+        real(value, DIGITS)
     }
 }
 

@@ -224,9 +224,12 @@ impl Stability {
         let g = self.graph();
         let runs = |name: &str| self.running.iter().any(|own| format!("{}'", own.0) == name);
         let is_velocity = |name: &str| name.ends_with('\'');
-        let is_named = |own: &&(String, Expr)| match g.is_zero(own.1) {
-            true => !is_velocity(&own.0) && self.along.len() <= MOST_ZEROS,
-            false => !runs(&own.0),
+        let is_named = |own: &&(String, Expr)| {
+            if g.is_zero(own.1) {
+                !is_velocity(&own.0) && self.along.len() <= MOST_ZEROS
+            } else {
+                !runs(&own.0)
+            }
         };
         let named: Vec<String> = self
             .along
@@ -234,13 +237,15 @@ impl Stability {
             .filter(is_named)
             .map(|(name, e)| format!("{name} = {}", shown(g, *e)))
             .collect();
-        let others = match self.along.len() <= MOST_ZEROS {
-            true => "velocities that are not named are 0",
-            false => "positions and velocities that are not named are 0",
+        let others = if self.along.len() <= MOST_ZEROS {
+            "velocities that are not named are 0"
+        } else {
+            "positions and velocities that are not named are 0"
         };
-        match named.is_empty() {
-            true => String::new(),
-            false => format!("At {}; {others}\n", named.join(", ")),
+        if named.is_empty() {
+            String::new()
+        } else {
+            format!("At {}; {others}\n", named.join(", "))
         }
     }
 

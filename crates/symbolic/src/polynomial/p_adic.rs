@@ -125,9 +125,10 @@ impl Lifting {
 /// The representative from zero on.
 fn reduced(c: IBig, modulus: &IBig) -> IBig {
     let rest = c % modulus;
-    match rest < IBig::ZERO {
-        true => rest + modulus,
-        false => rest,
+    if rest < IBig::ZERO {
+        rest + modulus
+    } else {
+        rest
     }
 }
 

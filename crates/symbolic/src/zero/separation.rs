@@ -81,9 +81,10 @@ struct Size {
 
 impl Size {
     fn rational(number: &Rational) -> Size {
-        let above = match number.is_zero() {
-            true => f64::NEG_INFINITY,
-            false => f64::from(number.numerator().log2_bounds().1),
+        let above = if number.is_zero() {
+            f64::NEG_INFINITY
+        } else {
+            f64::from(number.numerator().log2_bounds().1)
         };
         Size {
             above,
@@ -94,9 +95,10 @@ impl Size {
     fn plus(self, other: Size) -> Size {
         let (a, b) = (self.above + other.below, other.above + self.below);
         let (large, small) = (a.max(b), a.min(b));
-        let sum = match small == f64::NEG_INFINITY {
-            true => large,
-            false => large + (small - large).exp2().ln_1p() / std::f64::consts::LN_2,
+        let sum = if small == f64::NEG_INFINITY {
+            large
+        } else {
+            large + (small - large).exp2().ln_1p() / std::f64::consts::LN_2
         };
         Size {
             above: sum,
@@ -186,9 +188,10 @@ impl Roots<'_> {
     }
 
     fn power(&mut self, (base, own): (Expr, Size), exponent: &Rational) -> Option<Size> {
-        let own = match rational::is_negative(exponent) {
-            true => own.inverse(),
-            false => own,
+        let own = if rational::is_negative(exponent) {
+            own.inverse()
+        } else {
+            own
         };
         let times = exponent.numerator().to_f64().value().abs();
         let own = Size {

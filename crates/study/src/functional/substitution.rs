@@ -6,7 +6,7 @@ use chetaev_functionals::variation::variation;
 use chetaev_functionals::Functional;
 
 /// What was put in, and what follows then.
-pub(super) struct PutIn {
+pub(super) struct Substituted {
     /// `v = u,x`.
     pub(super) values: Vec<String>,
     /// The functional of the fields that are left.
@@ -18,7 +18,7 @@ pub(super) struct PutIn {
 }
 
 /// What follows where imposed equations are put in; nothing where none can be, or the variation is not derived.
-pub(super) fn put_in(functional: &Functional) -> Option<PutIn> {
+pub(super) fn substituted(functional: &Functional) -> Option<Substituted> {
     let own = reduced(functional);
     if own.put_in.is_empty() {
         return None;
@@ -33,7 +33,7 @@ pub(super) fn put_in(functional: &Functional) -> Option<PutIn> {
     };
     let values = own.put_in.iter().map(said).collect();
     let variation = variation(&own.functional).ok()?;
-    Some(PutIn {
+    Some(Substituted {
         values,
         euler: euler(&own.functional, &variation),
         boundary: boundary(&own.functional, &variation),
