@@ -5,6 +5,7 @@
 //! J. ACM 17, 1970). A disc that meets no mirror image but its own holds a zero that is its own mirror image.
 
 use crate::eigenvalues::zeros_of;
+use crate::spectrum::is_even;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph};
 use std::cmp::Ordering;
@@ -79,10 +80,6 @@ impl Arithmetic<'_> {
         }
         Some((value, slope))
     }
-
-    fn difference_of_midpoints(self, a: &Complex, b: &Complex) -> Option<Complex> {
-        Some(self.difference(a, b)?.midpoint())
-    }
 }
 
 impl Complex {
@@ -118,7 +115,7 @@ impl Complex {
 /// The zeros of a polynomial with numbers as coefficients, the constant first, each rounded to double precision; real and imaginary ones exactly
 /// so. `None` where it has multiple ones, or zeros so close that 2,048 bits do not tell them apart.
 pub(crate) fn zeros(g: &Graph, polynomial: &[Expr]) -> Option<Vec<(f64, f64)>> {
-    let is_even = polynomial.iter().skip(1).step_by(2).all(|&e| g.is_zero(e));
+    let is_even = is_even(g, polynomial);
     let mut open: Option<Vec<Complex>> = None;
     for bits in BITS {
         let precision = Precision::new(bits);
@@ -182,7 +179,7 @@ impl Zeros<'_> {
                 };
                 let sizes = [self.size_log2(&step), self.size_log2(&all[i])];
                 is_moving |= sizes[0].zip(sizes[1]).is_some_and(|(s, z)| s - z > still);
-                all[i] = self.arithmetic.difference_of_midpoints(&all[i], &step)?;
+                all[i] = self.arithmetic.difference(&all[i], &step)?.midpoint();
             }
             if !is_moving {
                 break;
@@ -208,7 +205,7 @@ impl Zeros<'_> {
         };
         let mut repelled = Complex::zero();
         for (_, other) in all.iter().enumerate().filter(|(j, _)| *j != i) {
-            let away = own.difference_of_midpoints(z, other)?;
+            let away = own.difference(z, other)?.midpoint();
             repelled = own.sum(&repelled, &own.quotient(&one, &away)?)?.midpoint();
         }
         let below = own.difference(&one, &own.product(&newton, &repelled)?)?;
