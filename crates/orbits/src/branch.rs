@@ -144,6 +144,21 @@ pub struct Point {
     pub spectrum: Spectrum,
 }
 
+impl Point {
+    /// The point as it is, where it was found in these units; the unknowns of an orbit have its period last.
+    pub fn restored(mut self, units: &Units, is_orbit: bool) -> Point {
+        let scales = units.scale.iter().copied().chain([units.rate.recip()]);
+        let unknowns = self.unknowns.iter_mut().zip(scales);
+        unknowns.for_each(|(x, s)| *x *= s);
+        if !is_orbit {
+            let spectrum = &mut self.spectrum;
+            spectrum.values.iter_mut().for_each(|l| *l *= units.rate);
+            spectrum.errors.iter_mut().for_each(|e| *e *= units.rate);
+        }
+        self
+    }
+}
+
 /// A point at which something happens.
 #[derive(Clone, Debug)]
 pub struct Special {
@@ -169,20 +184,7 @@ pub struct Branch {
 impl Branch {
     /// The curve as it is, where it was found in these units; the unknowns of an orbit have its period last.
     pub fn restored(self, units: &Units, is_orbit: bool) -> Branch {
-        let point = |own: Point| {
-            let scales = units.scale.iter().copied().chain([units.rate.recip()]);
-            let unknowns = own.unknowns.iter().zip(scales).map(|(x, s)| x * s);
-            let mut spectrum = own.spectrum;
-            if !is_orbit {
-                spectrum.values.iter_mut().for_each(|l| *l *= units.rate);
-                spectrum.errors.iter_mut().for_each(|e| *e *= units.rate);
-            }
-            Point {
-                unknowns: unknowns.collect(),
-                spectrum,
-                ..own
-            }
-        };
+        let point = |own: Point| own.restored(units, is_orbit);
         let special = self.special.into_iter().map(|mut own| {
             if let Kind::Hopf { frequency, .. } = &mut own.kind {
                 *frequency *= units.rate;

@@ -140,6 +140,18 @@ impl<'a> Expansion<'a> {
         controls(self.system, es)
     }
 
+    /// Whether the mass matrix is regular at some state, with what has no value put somewhere: as angles are coordinates but at places.
+    pub(crate) fn has_regular_mass_somewhere(&self) -> bool {
+        let (g, mass) = (self.graph(), &self.own.equations.mass);
+        let stated = self.system.parameter_values();
+        let entries = g.substitute_all(&mass.concat(), &self.values);
+        let entries = g.substitute_all(&entries, &stated);
+        let values = g.evaluate_f64(&entries, &|_| Some(SOMEWHERE));
+        let values = values.unwrap_or_default();
+        let is_known = !values.is_empty() && values.iter().all(|x| x.is_finite());
+        is_known && least_part(&DMatrix::from_row_slice(mass.len(), mass.len(), &values)) > CLOSE
+    }
+
     fn check_autonomous(&self) -> Result<(), LinearizationError> {
         let g = self.graph();
         let entries = [self.own.equations.entries(), self.own.rates.clone()].concat();

@@ -37,6 +37,11 @@ impl Claim for Stated {
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         match about(cx, subject) {
+            Some(Ok(own))
+                if own.question.is_mass_singular() && own.expansion.has_regular_mass_somewhere() =>
+            {
+                Verdict::undecided(SINGULAR).into()
+            }
             Some(Ok(own)) => {
                 let question = &own.question;
                 let proof = Proof::exact(on(question), steadiness(question));
@@ -59,6 +64,10 @@ impl Claim for Stated {
         }
     }
 }
+
+/// What is said where the coordinates are none.
+const SINGULAR: &str = "the mass matrix is singular at the motion and not beside it, as where angles or a radius are no coordinates: the equations \
+    determine no accelerations there, and that all rates vanish satisfies them without being a motion; state the motion in other coordinates";
 
 /// For which values of the parameters.
 fn on(question: &Question) -> &'static str {

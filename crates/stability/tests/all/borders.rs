@@ -269,3 +269,25 @@ fn the_border_of_an_assumption_may_be_critical() {
         }
     }
 }
+
+/// A weight that falls, in polar coordinates: at r = 0, phi = π/2 both equations hold with all rates zero, and it falls with g all the same.
+#[test]
+fn the_centre_of_polar_coordinates_is_no_motion() {
+    let case = Case::new(
+        r#"
+coordinates = ["r", "phi"]
+[lagrangian]
+L = "1/2 (r'^2 + r^2 phi'^2) - r cos(phi)"
+[steady.centre]
+r = 0
+phi = "pi/2"
+"r'" = 0
+"phi'" = 0
+"#,
+    );
+    for claim in ["steady.stated", "stability.spectral"] {
+        let found = case.verdict(claim, "centre");
+        assert!(matches!(found, Verdict::Undecided { .. }), "{found:?}");
+        assert!(found.detail().contains("mass matrix is singular"), "{found:?}");
+    }
+}

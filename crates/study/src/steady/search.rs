@@ -20,6 +20,7 @@ use chetaev_orbits::branch::Point;
 use chetaev_orbits::equilibria::Equilibria;
 use chetaev_orbits::flow::{Coordinates, Margins};
 use chetaev_orbits::solution::solution;
+use chetaev_orbits::units::Units;
 use chetaev_orbits::{Flow, OrbitError};
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::reduction::conditioned;
@@ -209,10 +210,13 @@ impl Charts<'_> {
         let values = parameters(flow);
         let usual = starts.iter().map(|own| flow.margins(&own.1, &values));
         let usual: Vec<Margins> = usual.collect();
-        let mut equations = Equilibria::new(flow, None)?;
+        let units = starts.first().map(|own| flow.units_near(&own.1));
+        let units = units.unwrap_or_else(|| flow.units.clone());
+        let own = flow.in_units(&units);
+        let mut equations = Equilibria::new(&own, None)?;
         let mut found: Vec<Near> = Vec::new();
         for (from, start) in starts {
-            let own = solution(&mut equations, start, 0.0).ok();
+            let own = near(&mut equations, &units, start);
             let settled = own.and_then(|own| self.settled(flow, own));
             let Some((mut point, family, margins)) = settled else {
                 continue;
@@ -246,8 +250,10 @@ impl Charts<'_> {
         let chart = conditioned(self.system, terms, selection, &place)?;
         let other = self.flow(&chart, &place).ok()?;
         let start = other.state(&place).ok()?;
-        let mut equations = Equilibria::new(&other, None).ok()?;
-        let (mut point, family) = solution(&mut equations, &start, 0.0).ok()?;
+        let units = other.units_near(&start);
+        let own = other.in_units(&units);
+        let mut equations = Equilibria::new(&own, None).ok()?;
+        let (mut point, family) = near(&mut equations, &units, &start)?;
         let margins = other.margins(&point.unknowns, &parameters(&other));
         let place = self.at_rest(&other, &point.unknowns);
         point.unknowns = flow.state(&place).ok()?;
@@ -280,6 +286,12 @@ impl Charts<'_> {
         }
         known
     }
+}
+
+/// The steady motion near a start, as it is, by equations in these units: what is small is decided in them, and not in those of the model.
+fn near(equations: &mut Equilibria<'_>, units: &Units, start: &[f64]) -> Option<(Point, usize)> {
+    let (point, family) = solution(equations, &units.packed(start), 0.0).ok()?;
+    Some((point.restored(units, false), family))
 }
 
 /// The name of a motion with values of coordinates, velocities and parameters.
