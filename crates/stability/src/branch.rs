@@ -11,11 +11,14 @@ use chetaev_symbolic::polynomial::normal_form::{Field, Kind};
 use chetaev_symbolic::polynomial::{Polynomial, TriangularSystem};
 use chetaev_symbolic::{Expr, Function, Graph, Symbol};
 use dashu_int::IBig;
+use dashu_ratio::RBig;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Places at which a family is looked at for a real point.
-const SAMPLES: usize = 60;
+const SAMPLES: usize = 120;
+/// The sizes of these places, in turn, as powers of ten: a family may be bounded, in units of atoms or of orbits.
+const SCALES: [i64; 12] = [0, -1, 0, -2, 1, -4, 0, 4, -8, 8, -12, 12];
 
 /// A triangular system with what its generators mean.
 pub(crate) struct Chain<'a, 'g> {
@@ -72,10 +75,11 @@ impl Chain<'_, '_> {
             })
             .collect();
         let mut random = Random::new(0x57ea_d1e5);
-        (0..SAMPLES).any(|_| {
+        let scales = SCALES.iter().cycle();
+        scales.take(SAMPLES).any(|&scale| {
             let free = self.order.iter().map(|&generator| {
                 let value = random.between(-1_000, 1_000);
-                (generator, self.placed(generator, value))
+                (generator, self.placed(generator, value, scale))
             });
             let sample = Sample {
                 free: free.collect(),
@@ -86,13 +90,15 @@ impl Chain<'_, '_> {
         })
     }
 
-    /// A place of a free generator: cosines by the tangent of half the angle.
-    fn placed(&self, generator: usize, value: i64) -> Ball {
+    /// A place of a free generator, of the size of a power of ten; cosines by the tangent of half the angle.
+    fn placed(&self, generator: usize, value: i64, scale: i64) -> Ball {
         let p = precision();
         let ratio = |a: i64, b: i64| p.div(&Ball::integer(a), &Ball::integer(b));
+        let power = p.rational(&RBig::from(IBig::from(10).pow(scale.unsigned_abs() as usize)));
         let place = match self.field.generators()[generator].kind {
             Kind::Cosine { .. } => ratio(250_000 - value * value, 250_000 + value * value),
-            _ => ratio(value, 50),
+            _ if scale < 0 => ratio(value, 50).and_then(|own| p.div(&own, &power)),
+            _ => ratio(value, 50).and_then(|own| p.mul(&own, &power)),
         };
         place.unwrap_or_else(|_| Ball::zero())
     }

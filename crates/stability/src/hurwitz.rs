@@ -6,7 +6,9 @@
 
 use crate::isolation::Root;
 use crate::real_roots::{overlap, sign_at, zeros_of_factors, Zero, FINE, USUAL};
+use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
+use chetaev_mechanics::system::Relation;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::meter;
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -163,7 +165,7 @@ pub struct Region {
     pub low: RBig,
     /// The upper end.
     pub high: RBig,
-    /// Whether all deciding polynomials have all their zeros left of the axis; if not, one of them has a zero right of it.
+    /// Whether all deciding polynomials have all their zeros left of the axis; if not, one of them has a zero right of it, or is not real.
     pub is_left: bool,
     /// A value inside, at which the signs were decided.
     pub sample: RBig,
@@ -238,14 +240,14 @@ pub(crate) fn ranges_within(
     name_several(&mut all);
     let mut boundaries = distinct(all.into_iter().map(|own| own.0).collect());
     let mut regions: Vec<Region> = Vec::new();
-    let lows = std::iter::once(low).chain(boundaries.iter().map(|b| &b.root.high));
-    let highs = boundaries.iter().map(|b| &b.root.low).chain([high]);
+    let domain = Domain::of(g, &lists.concat(), symbol);
+    let roots = boundaries.iter().map(|own| own.root.clone());
+    let cuts = cuts(roots.chain(domain.ends(&range)?));
+    let lows = std::iter::once(low).chain(cuts.iter().map(|root| &root.high));
+    let highs = cuts.iter().map(|root| &root.low).chain([high]);
     for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
         let sample = (a + b) / RBig::from(2);
-        let mut is_left = true;
-        for list in &lists {
-            is_left &= range.is_left(list, &sample)?;
-        }
+        let is_left = domain.holds(g, symbol, &sample)? && range.are_left(&lists, &sample)?;
         regions.push(Region {
             low: a.clone(),
             high: b.clone(),
@@ -261,6 +263,55 @@ pub(crate) fn ranges_within(
         are_apart,
         zeros,
     })
+}
+
+/// Where the functions of a range are real.
+struct Domain {
+    conditions: Vec<Condition>,
+}
+
+impl Domain {
+    fn of(g: &Graph, functions: &[Expr], symbol: Symbol) -> Domain {
+        let all = conditions(g, functions).into_iter();
+        // Poles are no ends: on both sides of one the functions are real.
+        let of_symbol = |own: &Condition| {
+            own.relation != Relation::NotEqual && g.contains_any(own.function, &[symbol])
+        };
+        Domain {
+            conditions: all.filter(of_symbol).collect(),
+        }
+    }
+
+    /// Where it begins or ends.
+    fn ends(&self, range: &Over<'_>) -> Option<Vec<Root>> {
+        let (g, span) = (range.g, (range.low, range.high));
+        let of = |own: &Condition| {
+            let zeros = zeros_of_factors(g, own.function, range.symbol, span, range.halvings)?;
+            Some(zeros.into_iter().map(|own| own.root))
+        };
+        let all: Option<Vec<_>> = self.conditions.iter().map(of).collect();
+        Some(all?.into_iter().flatten().collect())
+    }
+
+    fn holds(&self, g: &Graph, symbol: Symbol, at: &RBig) -> Option<bool> {
+        let holds = |own: &Condition| Some(own.holds(sign_at(g, own.function, symbol, at)?));
+        let all: Option<Vec<bool>> = self.conditions.iter().map(holds).collect();
+        Some(all?.into_iter().all(|own| own))
+    }
+}
+
+/// Intervals in order, those that overlap as one.
+fn cuts(roots: impl Iterator<Item = Root>) -> Vec<Root> {
+    let mut all: Vec<Root> = roots.collect();
+    all.sort_by(|a, b| a.low.cmp(&b.low));
+    let mut found: Vec<Root> = Vec::new();
+    for own in all {
+        match found.last_mut() {
+            Some(last) if own.low <= last.high => last.high = own.high.max(last.high.clone()),
+            _ => found.push(own),
+        }
+    }
+    found
 }
 
 /// Boundaries, each with the zero that it is.
@@ -336,6 +387,12 @@ impl Over<'_> {
                 boundary.crossing = Crossing::ZeroTouching;
             }
         }
+    }
+
+    /// Whether all of some polynomials have all zeros left of the axis.
+    fn are_left(&self, lists: &[Vec<Expr>], at: &RBig) -> Option<bool> {
+        let all: Option<Vec<bool>> = lists.iter().map(|list| self.is_left(list, at)).collect();
+        Some(all?.into_iter().all(|own| own))
     }
 
     /// Whether a polynomial, given by its leading coefficient and its determinants, has all zeros left of the axis. Where the leading

@@ -52,6 +52,7 @@ mod lines;
 mod methods;
 pub mod multiplicity;
 mod neighbourhood;
+mod norm;
 mod parameter_values;
 pub mod parts;
 pub mod problem;

@@ -1,10 +1,13 @@
 //! Real zeros of functions of one parameter, enclosed: none is left out, and each interval holds exactly one.
 //!
 //! They are isolated by bisection with the mean value form ([`isolation`](crate::isolation)). Polynomials are split into square-free
-//! factors first, so that zeros are simple.
+//! factors first, so that zeros are simple; a function with square roots vanishes where its [`norm`](crate::norm) does, if at all.
 
 use crate::isolation::{isolated, Enclosed, Look, Root};
+use crate::norm::Norm;
+use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
+use chetaev_mechanics::system::Relation;
 use chetaev_symbolic::factors::{coefficients, factors};
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
@@ -77,13 +80,40 @@ pub(crate) fn zeros_of_factors(
     for factor in parts {
         let roots = match (low >= &RBig::ZERO).then(|| in_its_root(g, factor, symbol)) {
             Some(Some(own)) => own.roots((low, high), halvings)?,
-            _ => Function::new(g, factor, symbol).roots(low, high, halvings)?,
+            _ => match Norm::of(g, factor, symbol) {
+                Some(norm) => roots_by_norm(g, &norm, symbol, (low, high), halvings)?,
+                None => Function::new(g, factor, symbol).roots(low, high, halvings)?,
+            },
         };
         found.extend(roots.into_iter().map(|root| Zero { root, factor }));
     }
+    // A factor may vanish where another one is not real.
+    let needed = conditions(g, &[e]);
+    let fails = |own: &Condition, zero: &Zero| {
+        let sign = sign_over(g, own.function, symbol, &zero.root);
+        own.relation != Relation::NotEqual && sign.is_some_and(|sign| !own.holds(sign))
+    };
+    found.retain(|zero| !needed.iter().any(|own| fails(own, zero)));
     found.sort_by(|a, b| a.root.low.cmp(&b.root.low));
     found.dedup();
     Some(found)
+}
+
+/// The zeros of a function with square roots are among those of its norm.
+fn roots_by_norm(
+    g: &Graph,
+    norm: &Norm,
+    symbol: Symbol,
+    (low, high): (&RBig, &RBig),
+    halvings: usize,
+) -> Option<Vec<Root>> {
+    let zeros = zeros_of_factors(g, norm.value, symbol, (low, high), halvings)?;
+    let of_function = |zero: Zero| {
+        let vanishes = norm.vanishes(g, symbol, &zero);
+        vanishes.map(|own| own.then_some(zero.root))
+    };
+    let found: Vec<Option<Root>> = zeros.into_iter().map(of_function).collect::<Option<_>>()?;
+    Some(found.into_iter().flatten().collect())
 }
 
 /// A function of a number that is not negative, in which roots of it occur, as one of the root r with p = r^k: where p^(1/2) has no slope, at
@@ -289,17 +319,19 @@ pub(crate) fn ball(low: &RBig, high: &RBig) -> Ball {
 }
 
 /// A number beyond which, on both sides, none of these functions of a parameter vanishes, and well before which none does, so that there is
-/// room for samples; `None` where one is no polynomial.
+/// room for samples; `None` where one is no polynomial, with square roots in it or not.
 pub fn bound_of(g: &Graph, es: &[Expr], symbol: Symbol) -> Option<RBig> {
     let bounds = es.iter().map(|&e| cauchy_bound(g, e, symbol));
     let largest = bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max();
     largest.map(|bound| bound * RBig::from(2))
 }
 
-/// 1 + max |aᵢ/aₙ| as an integer (Cauchy 1829); `None` where `e` is no polynomial with numbers as coefficients.
+/// 1 + max |aᵢ/aₙ| as an integer (Cauchy 1829), of the norm where square roots occur; `None` where `e` is no polynomial with numbers as coefficients.
 fn cauchy_bound(g: &Graph, e: Expr, symbol: Symbol) -> Option<RBig> {
     let precision = Precision::new(128);
-    let list = coefficients(g, e, symbol)?;
+    let Some(list) = coefficients(g, e, symbol) else {
+        return cauchy_bound(g, Norm::of(g, e, symbol)?.value, symbol);
+    };
     let balls = g.enclose(&list, &precision, &|_| None).ok()?;
     let leading = balls.last().filter(|b| b.excludes_zero())?;
     let mut bound = RBig::from(2);

@@ -19,12 +19,12 @@ pub use crate::steady_value::{SteadySetError, Value};
 use chetaev_mechanics::constraint::{Constraint, ConstraintKind};
 use chetaev_mechanics::{MotionTerms, Selection, System};
 use chetaev_symbolic::common_zeros::{angles, needed_relations, Numbers};
-use chetaev_symbolic::factors::irreducible_factors;
+use chetaev_symbolic::factors::{factored, irreducible_factors};
 use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{rational, Expr, Graph, Symbol};
 
 /// The steady motions of a system with these values of parameters; others stay symbols in general position.
 ///
@@ -345,12 +345,24 @@ fn found_of(chain: &Chain<'_, '_>, equations: &Equations<'_>, branch: Branch) ->
         conditions: branch
             .conditions
             .iter()
-            .map(|&e| closed(g, e))
-            .filter(|&e| g.as_number(e).is_none())
+            .filter_map(|&e| restriction(g, closed(g, e)))
             .collect(),
         free: branch.free,
         values,
     }
+}
+
+/// What must not be negative, without its positive numerical factor; `None` where it never is.
+fn restriction(g: &Graph, e: Expr) -> Option<Expr> {
+    let Some(parts) = factored(g, e) else {
+        return g.as_number(e).is_none().then_some(e);
+    };
+    let is_even = parts.factors.iter().all(|(_, power)| power % 2 == 0);
+    if is_even && !rational::is_negative(&parts.coefficient) {
+        return None;
+    }
+    let positive = g.number(rational::abs(&parts.coefficient));
+    Some(closed(g, g.div(e, positive)))
 }
 
 /// Single motions whose values are enclosed by the same small intervals are one: different branches of a root or an absolute value meet there.

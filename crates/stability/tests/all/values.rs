@@ -4,7 +4,8 @@
 
 use crate::common::Case;
 use chetaev_stability::eigenvalues::{eigenvalues, unreached, Unreached};
-use chetaev_symbolic::Verdict;
+use chetaev_stability::real_roots::real_roots;
+use chetaev_symbolic::{Rational, Verdict};
 
 /// One oscillator at rest at x = 0, over p.
 fn oscillator(value: &str, energy: &str, force: &str) -> Case {
@@ -529,4 +530,54 @@ x = 0
     let said = verdict.detail();
     assert!(said.starts_with("at w = "), "{said}");
     assert!(said.contains("false for w < -1.41"), "{said}");
+}
+
+/// √(1 − p²) ends at its zeros; p − √(2 − p²) vanishes at 1, and its conjugate at −1; √(p + √(p + 2)) at −1; 2 + √(4 − p²) nowhere; and
+/// √(1 − p²) (1/2 + p − p²) at ±1 and at (1 − √3)/2.
+#[test]
+fn functions_with_square_roots_vanish_where_they_do() {
+    let case = oscillator("1", "L = \"1/2 p x'^2 - x^2\"", "-x'");
+    let g = &case.system.graph;
+    let symbol = g.intern_symbol("p", 0);
+    let bounds = [-10, 10].map(Rational::from);
+    let zeros = |text: &str| -> Vec<f64> {
+        let found = real_roots(g, case.read(text), symbol, &bounds[0], &bounds[1]);
+        let found = found.unwrap_or_else(|| panic!("{text}"));
+        found.iter().map(|own| own.low.to_f64().value()).collect()
+    };
+    let near = |text: &str, expected: &[f64]| {
+        let found = zeros(text);
+        assert_eq!(found.len(), expected.len(), "{text}: {found:?}");
+        for (a, b) in found.iter().zip(expected) {
+            assert!((a - b).abs() < 1e-15, "{text}: {found:?}");
+        }
+    };
+    let (two, three) = (2_f64.sqrt(), 3_f64.sqrt());
+    near("sqrt(1 - p^2)", &[-1.0, 1.0]);
+    near("sqrt(2 - p^2)", &[-two, two]);
+    near("p - sqrt(2 - p^2)", &[1.0]);
+    near("sqrt(p + sqrt(p + 2))", &[-1.0]);
+    near("2 + sqrt(4 - p^2) - p/10", &[]);
+    near("(1 - p^2)^(3/2) + (1 - p^2)^(1/2)*(p - 1/2)", &[-1.0, 0.5 - three / 2.0, 1.0]);
+}
+
+/// A pendulum under a constant torque p: it stands at asin p up to p = 1, where both equilibria meet.
+#[test]
+fn a_motion_that_ends_at_a_root() {
+    let case = Case::new(
+        r#"
+coordinates = ["x"]
+[parameters]
+p = 0.5
+[lagrangian]
+L = "1/2 x'^2 + cos(x) + p x"
+[forces]
+x = "-x'"
+[steady.s]
+x = "asin(p)"
+"x'" = 0
+over = "p"
+"#,
+    );
+    assert_eq!(case.said("stability.asymptotic", "s"), "-1 < p < 1");
 }
