@@ -36,6 +36,9 @@ pub enum WithoutLyapunov {
     /// A derivative has no value.
     #[error("the first Lyapunov coefficient was not computed: the equations have no explicit form with three derivatives there")]
     NoDerivatives,
+    /// Zero, or twice the frequency, is an eigenvalue beside the pair.
+    #[error("the first Lyapunov coefficient is not defined: zero, or twice the frequency, is an eigenvalue too")]
+    Resonant,
     /// Zeros beside the pair that no integral takes out.
     #[error("the first Lyapunov coefficient is not defined: zero eigenvalues stand beside the pair ({zeros}), and integrals take out {levels} of them")]
     Zeros {
@@ -150,9 +153,7 @@ pub fn first_lyapunov(
             },
         });
     }
-    let coefficient = pair.coefficient(&lines, &levels);
-    let coefficient = coefficient.filter(|own| own.is_finite());
-    let coefficient = coefficient.ok_or(WithoutLyapunov::NoDerivatives)?;
+    let coefficient = pair.coefficient(&lines, &levels)?;
     let lengths = pair.q.iter().zip(&flow.units.scale);
     let square: f64 = lengths.map(|(q, s)| q.norm_sqr() * s * s).sum();
     Ok(FirstLyapunov {
@@ -241,6 +242,23 @@ struct Pair<'a> {
     p: ComplexVector,
 }
 
+/// Derivatives of f along a pair.
+struct Along {
+    /// C(q, q, q̄).
+    cubic: ComplexVector,
+    /// B(q, q̄).
+    constant: DVector<f64>,
+    /// B(q, q).
+    doubled: ComplexVector,
+}
+
+impl Along {
+    fn is_finite(&self) -> bool {
+        let complex = self.cubic.iter().chain(&self.doubled);
+        complex.clone().all(|z| z.is_finite()) && self.constant.iter().all(|x| x.is_finite())
+    }
+}
+
 impl<'a> Pair<'a> {
     fn nearest(slopes: &'a DMatrix<f64>) -> Result<Pair<'a>, WithoutLyapunov> {
         let all = eigenvalues(slopes).unwrap_or_default();
@@ -273,23 +291,27 @@ impl<'a> Pair<'a> {
         })
     }
 
-    fn coefficient(&self, lines: &Lines<'_>, levels: &[Level]) -> Option<f64> {
+    fn coefficient(&self, lines: &Lines<'_>, levels: &[Level]) -> Result<f64, WithoutLyapunov> {
+        let along = self.along(lines);
+        let own = along.filter(|own| own.is_finite());
+        let own = own.ok_or(WithoutLyapunov::NoDerivatives)?;
         let q = &self.q;
         let (a, b) = (q.map(|z| z.re), q.map(|z| z.im));
-        let real = lines.value(&lines.third, &a)? + lines.thrice(&b, &a)?;
-        let imaginary = lines.thrice(&a, &b)? + lines.value(&lines.third, &b)?;
-        let cubic = real.zip_map(&imaginary, Complex::new);
-        let conjugate = q.conjugate();
-        let second = lines.complex(q, &conjugate)?.map(|z| z.re);
-        let constant = self.constant(levels, &second, (&a, &b))?;
+        let constant = self.constant(levels, &own.constant, (&a, &b));
+        let constant = constant.ok_or(WithoutLyapunov::Resonant)?;
         let constant = constant.map(|x| Complex::new(x, 0.0));
         let complex = self.slopes.map(|x| Complex::new(x, 0.0));
         let doubled = (-shifted(&complex, 2.0 * self.frequency)).lu();
-        let doubled = doubled.solve(&lines.complex(q, q)?)?;
+        let doubled = doubled.solve(&own.doubled);
+        let doubled = doubled.filter(|own| own.iter().all(|z| z.is_finite()));
+        let doubled = doubled.ok_or(WithoutLyapunov::Resonant)?;
+        let product = |u: &ComplexVector, w: &ComplexVector| {
+            lines.complex(u, w).ok_or(WithoutLyapunov::NoDerivatives)
+        };
         let parts = [
-            cubic,
-            lines.complex(q, &constant)? * Complex::new(2.0, 0.0),
-            lines.complex(&conjugate, &doubled)?,
+            own.cubic,
+            product(q, &constant)? * Complex::new(2.0, 0.0),
+            product(&q.conjugate(), &doubled)?,
         ];
         let terms = parts.iter().map(|own| self.p.dotc(own).re);
         let sum: f64 = terms.sum();
@@ -303,6 +325,21 @@ impl<'a> Pair<'a> {
             sum
         };
         Some(0.5 * sum / self.frequency)
+            .filter(|own| own.is_finite())
+            .ok_or(WithoutLyapunov::NoDerivatives)
+    }
+
+    /// Second and third derivatives along the pair; `None` where one has no value.
+    fn along(&self, lines: &Lines<'_>) -> Option<Along> {
+        let q = &self.q;
+        let (a, b) = (q.map(|z| z.re), q.map(|z| z.im));
+        let real = lines.value(&lines.third, &a)? + lines.thrice(&b, &a)?;
+        let imaginary = lines.thrice(&a, &b)? + lines.value(&lines.third, &b)?;
+        Some(Along {
+            cubic: real.zip_map(&imaginary, Complex::new),
+            constant: lines.complex(q, &q.conjugate())?.map(|z| z.re),
+            doubled: lines.complex(q, q)?,
+        })
     }
 
     /// h with `A h = −B(q, q̄)` on the levels.

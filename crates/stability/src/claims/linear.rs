@@ -30,7 +30,8 @@ impl Statement for Linear {
 
     fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
         match place {
-            Place::Left => Said::Holds("all eigenvalues but the zeros of the family lie left of the axis, and these have as many eigenvectors as the family has dimensions".into()),
+            Place::Left if about.question.linear.family > 0 => Said::Holds("all eigenvalues but the zeros of the family lie left of the axis, and these have as many eigenvectors as the family has dimensions".into()),
+            Place::Left => Said::Holds("all eigenvalues lie left of the axis".into()),
             Place::Right => Said::Fails,
             Place::NotLeft => Said::Open("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other".into()),
             // Inside of an interval multiplicities do not change, and no kernel grows, so that what is said of general values is so throughout.

@@ -103,7 +103,12 @@ fn answer(about: &About<'_>, at: Option<(Symbol, &Root)>) -> Answer {
     let Some(found) = deciding(about, at) else {
         return Answer::NotApplicable;
     };
-    let pair = "a pair of eigenvalues is on the imaginary axis and all others but the zeros of the family lie left of it";
+    let others = match about.question.linear.family {
+        0 => "all others",
+        _ => "all others but the zeros of the family",
+    };
+    let pair =
+        format!("a pair of eigenvalues is on the imaginary axis and {others} lie left of it");
     let (ball, quantity, stable, unstable) = match &found {
         Deciding::Levels(ball, levels) => (
             ball,

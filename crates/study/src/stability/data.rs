@@ -168,7 +168,11 @@ impl Stability {
                             Place::OnAxis => "spectral",
                             Place::Right | Place::NotLeft => "unstable",
                         };
-                        json!({"from": r.low.to_f64().value(), "to": r.high.to_f64().value(), "stability": place})
+                        let mut found = json!({"from": r.low.to_f64().value(), "to": r.high.to_f64().value(), "stability": place});
+                        if place == "spectral" {
+                            found["semisimple"] = json!(self.is_semisimple());
+                        }
+                        found
                     };
                     ranges
                         .regions

@@ -367,7 +367,8 @@ impl Stability {
                 for (region, is_absent) in ranges.regions.iter().zip(&self.absent) {
                     let place = match self.question.place(region.is_left) {
                         _ if *is_absent => "no such motion: what it states is not real",
-                        Place::Left => "stable: all eigenvalues but the zeros of the family are left of the axis",
+                        Place::Left if self.question.linear.family > 0 => "stable: all eigenvalues but the zeros of the family are left of the axis",
+                        Place::Left => "stable: all eigenvalues are left of the axis",
                         Place::OnAxis => self.on_axis(),
                         Place::Right | Place::NotLeft => "unstable: an eigenvalue is right of the axis",
                     };
@@ -403,11 +404,17 @@ impl Stability {
         text
     }
 
+    /// Whether eigenvalues on the axis have as many eigenvectors as their multiplicity, for general values of the parameter; `None` where that was not
+    /// decided.
+    pub(super) fn is_semisimple(&self) -> Option<bool> {
+        defects(self.graph(), &self.question, None).map(|list| list.is_empty())
+    }
+
     /// What is said of linear motions where no eigenvalue is right of the axis, for general values of the parameter.
     fn on_axis(&self) -> &'static str {
-        match defects(self.graph(), &self.question, None) {
-            Some(list) if list.is_empty() => "no eigenvalue right of the axis, those on it semisimple: linear motions stay bounded",
-            Some(_) => "no eigenvalue right of the axis, but one on it has fewer eigenvectors than its multiplicity: linear motions grow as a power of the time, but perhaps at single values",
+        match self.is_semisimple() {
+            Some(true) => "no eigenvalue right of the axis, those on it semisimple: linear motions stay bounded",
+            Some(false) => "no eigenvalue right of the axis, but one on it has fewer eigenvectors than its multiplicity: linear motions grow as a power of the time, but perhaps at single values",
             None => "no eigenvalue right of the axis; whether those on it are semisimple was not decided",
         }
     }
