@@ -9,7 +9,7 @@ use chetaev_motion::Binding;
 use chetaev_stability::eigenvalues::{balanced, power_of_two};
 use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::reduction::{ClosedSystem, OperatingPoint, Speeds};
-use chetaev_stability::singular::least_part;
+use chetaev_stability::singular::least;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
@@ -58,7 +58,7 @@ pub struct Divisors {
 /// How far a state is from where the equations say nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
-    /// The smallest singular value of the mass matrix in parts of the largest; 1 where there is none.
+    /// The smallest singular value of the mass matrix, in the units of its entries; 1 where there is none.
     pub mass: f64,
     /// The same of the gradients of the constraints.
     pub gradients: f64,
@@ -439,7 +439,7 @@ impl Flow {
         };
         let part = |rows: &[Vec<Expr>]| match rows {
             [] => 1.0,
-            rows => numbers(rows).map_or(0.0, |own| least_part(&own)),
+            rows => numbers(rows).map_or(0.0, |own| least(&own)),
         };
         let is_finite = |own: &DMatrix<f64>| own.iter().all(|x| x.is_finite());
         let slopes = numbers(&self.divisors.slopes).ok().filter(is_finite);

@@ -29,6 +29,11 @@ impl Units {
         state.iter().zip(&self.scale).map(|(x, s)| x / s).collect()
     }
 
+    /// A state that is given in these units.
+    pub fn unpacked(&self, state: &[f64]) -> Vec<f64> {
+        state.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
+    }
+
     /// An error with times as they are.
     pub fn restored_error(&self, problem: OrbitError) -> OrbitError {
         match problem {

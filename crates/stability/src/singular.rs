@@ -79,7 +79,14 @@ pub fn least_part(m: &DMatrix<f64>) -> f64 {
         .map_or(0.0, |(first, last)| last / first)
 }
 
-/// The same of a matrix that is given row by row.
+/// The smallest singular value, 0 where rows depend on each other, or columns where these are fewer; 0 for no matrix of numbers.
+pub fn least(m: &DMatrix<f64>) -> f64 {
+    let found = singular(m).map(|own| own.values).unwrap_or_default();
+    let count = m.nrows().min(m.ncols()).min(found.len());
+    found[..count].last().copied().unwrap_or(0.0)
+}
+
+/// [`least_part`] of a matrix that is given row by row.
 pub fn least_part_of(rows: usize, entries: &[f64]) -> f64 {
     let columns = entries.len() / rows.max(1);
     least_part(&DMatrix::from_row_slice(rows, columns, entries))

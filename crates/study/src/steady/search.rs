@@ -33,7 +33,7 @@ use std::fmt::Write as _;
 
 /// Starts beside those that the model gives.
 const STARTS: usize = 60;
-/// How far from the first start they lie at most, in its own size, 1 where that is zero; a tenth to ten times as far, as scales are not known.
+/// How far from the first start they lie at most, in its own size, that of the units where it is zero; a tenth to ten times as far, as scales are not known.
 const FAR: f64 = 4.0;
 /// Motions that differ by less, in parts of their size, are one.
 const SAME: f64 = 1e-6;
@@ -120,8 +120,11 @@ pub(super) fn search(
     let of = |(name, point): &Start| Some((Some(name.clone()), flow.state(point).ok()?));
     let mut all: Vec<(Option<String>, Vec<f64>)> = starts.iter().filter_map(of).collect();
     let about = flow.state(charts.first)?;
-    all.extend(places_about(&flow, &about).map(|place| (None, place)));
-    let found = charts.found(&flow, &all)?;
+    let units = flow.units_near(&about);
+    let packed = units.packed(&about);
+    let places = places_about(&flow, &packed);
+    all.extend(places.map(|place| (None, units.unpacked(&place))));
+    let found = charts.found(&flow, &units, &all)?;
     let ignorable = system.coordinates.iter();
     let ignorable = ignorable.filter(|c| !flow.variables.contains(&c.q_symbol));
     Ok(Search {
@@ -164,15 +167,20 @@ fn are_singular(system: &System, prepared: &Prepared, starts: &[Start]) -> bool 
 
 /// The largest residual of a finite constraint at a start.
 const ADMISSIBLE: f64 = 1e-9;
-/// A part of the gradients of constraints below this is none; a mass matrix is quadratic in such a distance.
-const AT_SINGULAR: f64 = 1e-5;
+/// A part of the gradients of constraints below this is none, as steps to where they depend on each other become slow; a mass matrix is quadratic in
+/// such a distance.
+const AT_SINGULAR: f64 = 1e-4;
 /// A slope of a velocity beyond this may be near a pole, and one beyond its square is.
 const STEEP: f64 = 1e3;
 
-/// What loses its rank at a place, in parts of what is usual.
+/// What loses its rank at a place, in parts of what is usual: half of the starts are farther from it.
 fn singular(own: Margins, usual: &[Margins]) -> Option<Singular> {
-    let most = |part: fn(&Margins) -> f64| usual.iter().map(part).fold(0.0, f64::max);
-    let (mass, gradients) = (most(|own| own.mass), most(|own| own.gradients));
+    let middle = |part: fn(&Margins) -> f64| {
+        let mut all: Vec<f64> = usual.iter().map(part).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or(0.0)
+    };
+    let (mass, gradients) = (middle(|own| own.mass), middle(|own| own.gradients));
     if own.gradients < AT_SINGULAR * gradients {
         Some(Singular::Gradients)
     } else if own.mass < AT_SINGULAR * AT_SINGULAR * mass {
@@ -205,18 +213,17 @@ impl Charts<'_> {
     fn found(
         &self,
         flow: &Flow,
+        units: &Units,
         starts: &[(Option<String>, Vec<f64>)],
     ) -> Result<Vec<Near>, OrbitError> {
         let values = parameters(flow);
         let usual = starts.iter().map(|own| flow.margins(&own.1, &values));
         let usual: Vec<Margins> = usual.collect();
-        let units = starts.first().map(|own| flow.units_near(&own.1));
-        let units = units.unwrap_or_else(|| flow.units.clone());
-        let own = flow.in_units(&units);
+        let own = flow.in_units(units);
         let mut equations = Equilibria::new(&own, None)?;
         let mut found: Vec<Near> = Vec::new();
         for (from, start) in starts {
-            let own = near(&mut equations, &units, start);
+            let own = near(&mut equations, units, start);
             let settled = own.and_then(|own| self.settled(flow, own));
             let Some((mut point, family, margins)) = settled else {
                 continue;
@@ -320,7 +327,7 @@ fn starts(model: &Model, system: &System, prepared: &Prepared) -> Result<Vec<Sta
     Ok(all)
 }
 
-/// Places about a state, the same ones at each call: angles anywhere.
+/// Places about a state, both in units of the flow, the same ones at each call: angles anywhere.
 fn places_about<'f>(flow: &'f Flow, about: &'f [f64]) -> impl Iterator<Item = Vec<f64>> + 'f {
     let mut generator = Generator::new(0x5eed_57ea);
     (0..STARTS).map(move |_| {
