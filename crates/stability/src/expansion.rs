@@ -4,13 +4,14 @@ use crate::growth::{flattened, Flat};
 use crate::guess::near;
 use crate::problem::LinearizationError;
 use crate::real_roots::sign_of;
-use crate::real_values::not_real;
+use crate::real_values::{not_real, Condition};
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::singular::least_part;
 use crate::steady::{at_point, closed, completed, controls, echelon, solution, State, SOMEWHERE};
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
+use chetaev_mechanics::system::Assumption;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::simplify::{simplify, Options};
@@ -104,6 +105,7 @@ impl<'a> Expansion<'a> {
         };
         about.check_autonomous()?;
         about.check_positions()?;
+        about.check_assumed()?;
         about.check_smooth()?;
         about.check_constraints()?;
         about.check_steady()?;
@@ -170,6 +172,31 @@ impl<'a> Expansion<'a> {
             Some(&j) => Err(LinearizationError::PositionMissing {
                 motion: self.motion.name.clone(),
                 coordinate: self.system.coordinates[j].name.clone(),
+            }),
+        }
+    }
+
+    /// What is assumed of coordinates and velocities holds along the motion, or is not known not to.
+    fn check_assumed(&self) -> Result<(), LinearizationError> {
+        let (g, system) = (self.graph(), self.system);
+        let of_state = [system.coordinate_symbols(), system.velocity_symbols()].concat();
+        let assumed = system.assumptions.iter();
+        let assumed = assumed.filter(|own| g.any_contains_any(&[own.left, own.right], &of_state));
+        let fails = |own: &&Assumption| {
+            let value = closed(g, self.at(&[g.sub(own.left, own.right)])[0]);
+            let sign = sign_of(g, value).filter(|_| g.symbols_in(&[value]).is_empty());
+            let condition = Condition {
+                function: value,
+                relation: own.relation,
+            };
+            sign.is_some_and(|sign| !condition.holds(sign))
+        };
+        match assumed.clone().find(fails) {
+            None => Ok(()),
+            Some(own) => Err(LinearizationError::NotAssumed {
+                motion: self.motion.name.clone(),
+                assumption: own.text.clone(),
+                enclosure: enclosure(g, self.at(&[g.sub(own.left, own.right)])[0]),
             }),
         }
     }

@@ -68,6 +68,16 @@ pub enum LinearizationError {
         /// Lower and upper bound of it, where it is a number.
         enclosure: Option<(String, String)>,
     },
+    /// Something that the model assumes does not hold.
+    #[error("the motion `{motion}` is outside of what the model assumes: `{assumption}` does not hold")]
+    NotAssumed {
+        /// The motion.
+        motion: String,
+        /// The assumption, as the model states it.
+        assumption: String,
+        /// Lower and upper bound of its smaller side minus its larger side, where that is not zero.
+        enclosure: Option<(String, String)>,
+    },
     /// The constraints do not determine the accelerations.
     #[error("at the motion `{motion}` the gradients of the constraints depend on each other, so that nothing is said of its neighbours: it is a singular place of the constraints")]
     Singular {

@@ -5,11 +5,12 @@
 
 use crate::problem::LinearizationError;
 use chetaev_mechanics::{MotionTerms, SteadyMotion, System};
-use chetaev_symbolic::polynomial::normal_form::normal_form;
+use chetaev_symbolic::number::ball::{Ball, Precision};
+use chetaev_symbolic::polynomial::normal_form::{normal_form, normal_forms, Options};
 use chetaev_symbolic::polynomial::Budget;
-use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::simplify;
 use chetaev_symbolic::zero::separation::vanishes;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 
 /// A state with all velocities.
 #[derive(Clone, Debug)]
@@ -130,16 +131,43 @@ pub(crate) fn closed(g: &Graph, e: Expr) -> Expr {
     if g.as_number(e).is_some() {
         return e;
     }
+    let has_angles = has_angles_of_numbers(g, e);
+    if has_angles && is_apart_from_zero(g, e) {
+        return readable(g, e).unwrap_or(e);
+    }
     let form = match normal_form(g, e, &Budget::PROOF) {
         Ok(form) if form.is_zero() => g.zero(),
+        Ok(form) if has_angles => readable(g, e).unwrap_or_else(|| form.to_expr()),
         Ok(form) => form.to_expr(),
-        Err(_) => simplify(g, e, &Options::default()),
+        Err(_) => simplify::simplify(g, e, &simplify::Options::default()),
     };
     // Numbers of several roots vanish by no form, as √2 + √3 − √(5 + 2√6) does.
     match vanishes(g, form) {
         Some(true) => g.zero(),
         _ => form,
     }
+}
+
+/// Whether a sine, or another function, of a number occurs.
+fn has_angles_of_numbers(g: &Graph, e: Expr) -> bool {
+    let is_of_number = |own: Expr| match g.node(own) {
+        Node::Apply { arguments, .. } => arguments.iter().any(|own| g.as_number(*own).is_some()),
+        _ => false,
+    };
+    g.reachable(&[e]).into_iter().any(is_of_number)
+}
+
+/// Whether a number is enclosed apart from zero.
+fn is_apart_from_zero(g: &Graph, e: Expr) -> bool {
+    let found = g.enclose(&[e], &Precision::new(128), &|_| None);
+    found.is_ok_and(|all| all.iter().all(Ball::excludes_zero))
+}
+
+/// The form without multiples of angles that are numbers: `sin(23/15)` beside `sin(1/5)` would be a polynomial of degree 23. `None` where it is too
+/// large.
+fn readable(g: &Graph, e: Expr) -> Option<Expr> {
+    let (field, values) = normal_forms(g, &[e], &Options::readable(Budget::PROOF)).ok()?;
+    values.first().map(|own| field.expression(own))
 }
 
 /// A solution of equations that are affine in the unknowns, those that are free being zero; `None` where they are not affine or

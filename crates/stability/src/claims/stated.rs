@@ -115,6 +115,17 @@ pub(super) fn refused(system: &System, problem: LinearizationError) -> Verdict {
             residual,
             detail: sentence,
         }),
+        LinearizationError::NotAssumed {
+            assumption,
+            enclosure,
+            ..
+        } => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: format!("what is assumed, {assumption}: left side minus right side"),
+            // Where neither side is larger the difference is zero.
+            residual: enclosure.unwrap_or_else(|| ("0".into(), "0".into())),
+            detail: sentence,
+        }),
         LinearizationError::NotSteady {
             enclosure: Some(residual),
             quantity,

@@ -291,3 +291,24 @@ phi = "pi/2"
         assert!(found.detail().contains("mass matrix is singular"), "{found:?}");
     }
 }
+
+/// x = −1 is where x'' = −(x + 1) rests, and the model assumes x > 0.
+#[test]
+fn a_motion_outside_of_what_is_assumed_is_none() {
+    let case = Case::new(
+        r#"
+coordinates = ["x"]
+assumptions = ["x > 0"]
+[lagrangian]
+T = "1/2 x'^2"
+V = "1/2 (x + 1)^2"
+[steady.m]
+x = -1
+"#,
+    );
+    let found = case.verdict("steady.stated", "m");
+    assert!(matches!(found, Verdict::Refuted(_)), "{found:?}");
+    assert!(found.detail().contains("`x > 0` does not hold"), "{found:?}");
+    let found = case.verdict("stability.linear", "m");
+    assert!(!matches!(found, Verdict::Proved(_)), "{found:?}");
+}

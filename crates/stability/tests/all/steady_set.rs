@@ -4,18 +4,25 @@
 use crate::common::Case;
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
+use chetaev_stability::problem::LinearizationError;
 use chetaev_stability::real_roots::sign_of;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
 use std::cmp::Ordering;
 
-/// The steady motions for the values that the model states; each with a closed form is steady by the check that linearization makes.
+/// The steady motions for the values that the model states; each with a closed form is steady by the check that linearization makes, or refused
+/// where something that is assumed does not hold.
 fn found(case: &Case) -> SteadySet {
     let own = set(case).unwrap();
     let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);
-    for motion in own.found.iter().filter_map(|found| found.motion.as_ref()) {
+    for found in &own.found {
+        let Some(motion) = &found.motion else {
+            continue;
+        };
         let values = case.system.parameter_values();
-        let about = Expansion::new(&case.system, terms, selection, motion, &values);
-        assert!(about.is_ok(), "{motion:?}: {:?}", about.err());
+        let problem = Expansion::new(&case.system, terms, selection, motion, &values).err();
+        let is_refused = matches!(problem, Some(LinearizationError::NotAssumed { .. }));
+        assert!(problem.is_none() || is_refused, "{motion:?}: {problem:?}");
+        assert_eq!(is_refused, !found.is_assumed, "{motion:?}");
     }
     own
 }

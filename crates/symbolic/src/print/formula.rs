@@ -144,8 +144,9 @@ impl Formula {
         }
     }
 
-    /// The product of formulas that are no products themselves; 1 for none.
-    pub(crate) fn product(mut factors: Vec<Formula>) -> Formula {
+    /// The product of formulas that are no products themselves; 1 for none. Roots of integers are one root of their product, as √2 √5 is √10.
+    pub(crate) fn product(factors: Vec<Formula>) -> Formula {
+        let mut factors = joined_roots(factors);
         match factors.len() {
             0 => Formula::one(),
             1 => factors.swap_remove(0),
@@ -264,4 +265,33 @@ impl Formula {
             }
         }
     }
+}
+
+/// Factors, those that are roots of integers of one order as one.
+fn joined_roots(factors: Vec<Formula>) -> Vec<Formula> {
+    let mut joined: Vec<Formula> = Vec::new();
+    for own in factors {
+        let place = joined.iter().position(|known| of_roots(known, &own).is_some());
+        match place.and_then(|at| Some((at, of_roots(&joined[at], &own)?))) {
+            Some((at, root)) => joined[at] = root,
+            None => joined.push(own),
+        }
+    }
+    joined
+}
+
+/// The product of two roots of integers of one order; `None` for other factors.
+fn of_roots(a: &Formula, b: &Formula) -> Option<Formula> {
+    let parts = |own: &Formula| match own {
+        Formula::Root { index, radicand } => match &**radicand {
+            Formula::Integer(digits) => Some((*index, digits.parse::<IBig>().ok()?)),
+            _ => None,
+        },
+        _ => None,
+    };
+    let ((index, a), (other, b)) = (parts(a)?, parts(b)?);
+    (index == other).then(|| Formula::Root {
+        index,
+        radicand: Box::new(Formula::integer(a * b)),
+    })
 }

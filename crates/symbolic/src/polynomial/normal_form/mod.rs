@@ -38,6 +38,9 @@ pub struct Options {
     /// Whether sines and cosines of combinations of angles are expanded by the addition theorems. A proof needs this;
     /// a reader may prefer `cos(α - β)`.
     pub expand_angles: bool,
+    /// Whether this is done with angles that are rational numbers too: a proof needs it, and sin 23 becomes a polynomial in sin 1 and cos 1. What
+    /// is printed, or evaluated in floating point, is better without.
+    pub expand_numbers: bool,
     /// Whether components of linear solves are worked out. A proof needs this; otherwise each is a generator.
     pub expand_solves: bool,
     /// Whether hyperbolic functions are written by exponentials. A proof needs this; otherwise they are kept as pairs
@@ -57,10 +60,19 @@ impl Options {
             budget,
             positive: Vec::new(),
             expand_angles: true,
+            expand_numbers: true,
             expand_solves: true,
             expand_hyperbolic: true,
             split_roots: true,
             base_angles: Vec::new(),
+        }
+    }
+
+    /// The same, with angles that are rational numbers kept as they are written.
+    pub fn readable(budget: Budget) -> Options {
+        Options {
+            expand_numbers: false,
+            ..Options::proof(budget)
         }
     }
 

@@ -169,17 +169,32 @@ impl Field<'_> {
         } else {
             &self.hyperbolic
         };
-        let basis: Vec<RationalFunction> = table.iter().map(|a| a.form.clone()).collect();
-        if !self.options.expand_angles {
-            for (i, base) in basis.iter().enumerate() {
-                if self.equal(base, form)? {
+        let is_number = |own: &RationalFunction| {
+            own.numerator().is_constant() && own.denominator().is_constant()
+        };
+        let is_kept = |own: &RationalFunction| !self.options.expand_numbers && is_number(own);
+        if !self.options.expand_angles || is_kept(form) {
+            for (i, base) in table.iter().enumerate() {
+                if self.equal(&base.form, form)? {
                     return Ok(vec![(i, 1)]);
                 }
-                if self.equal(base, &form.neg())? {
+                if self.equal(&base.form, &form.neg())? {
                     return Ok(vec![(i, -1)]);
                 }
             }
-        } else if let Some(weights) = self.combination(form, &basis)? {
+            let base = self.add_pair(which, form, expr);
+            return Ok(vec![base]);
+        }
+        let places: Vec<usize> = (0..table.len())
+            .filter(|&i| !is_kept(&table[i].form))
+            .collect();
+        let basis: Vec<RationalFunction> =
+            places.iter().map(|&i| table[i].form.clone()).collect();
+        if let Some(found) = self.combination(form, &basis)? {
+            let mut weights = vec![Rational::ZERO; table.len()];
+            for (place, weight) in places.into_iter().zip(found) {
+                weights[place] = weight;
+            }
             let subdivisions: Vec<i64> = table.iter().map(|a| a.subdivision).collect();
             let hints = match which {
                 Pair::Circular => &mut self.hints.angles,
