@@ -94,7 +94,9 @@ impl Chain<'_, '_> {
     fn placed(&self, generator: usize, value: i64, scale: i64) -> Ball {
         let p = precision();
         let ratio = |a: i64, b: i64| p.div(&Ball::integer(a), &Ball::integer(b));
-        let power = p.rational(&RBig::from(IBig::from(10).pow(scale.unsigned_abs() as usize)));
+        let power = p.rational(&RBig::from(
+            IBig::from(10).pow(scale.unsigned_abs() as usize),
+        ));
         let place = match self.field.generators()[generator].kind {
             Kind::Cosine { .. } => ratio(250_000 - value * value, 250_000 + value * value),
             _ if scale < 0 => ratio(value, 50).and_then(|own| p.div(&own, &power)),

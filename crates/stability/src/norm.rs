@@ -41,7 +41,10 @@ impl Norm {
             g.add(&terms.collect::<Vec<_>>())
         };
         let (even, odd) = (part(0), part(1));
-        let times = g.mul(&[odd, g.pow(radicand, g.number(Rational::ONE / Rational::from(2)))]);
+        let times = g.mul(&[
+            odd,
+            g.pow(radicand, g.number(Rational::ONE / Rational::from(2))),
+        ]);
         let squares = [g.powi(even, 2), g.neg(g.mul(&[radicand, g.powi(odd, 2)]))];
         let value = crate::steady::closed(g, g.add(&squares));
         (!g.is_zero(value)).then(|| Norm {

@@ -69,7 +69,9 @@ pub enum LinearizationError {
         enclosure: Option<(String, String)>,
     },
     /// Something that the model assumes does not hold.
-    #[error("the motion `{motion}` is outside of what the model assumes: `{assumption}` does not hold")]
+    #[error(
+        "the motion `{motion}` is outside of what the model assumes: `{assumption}` does not hold"
+    )]
     NotAssumed {
         /// The motion.
         motion: String,

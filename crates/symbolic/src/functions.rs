@@ -108,9 +108,7 @@ impl Graph {
             | (Atanh, Tanh) => Some(y),
             (Abs, Abs) | (Abs, Cosh) | (Abs, Exp) => Some(x),
             // Angles between −π/2 and π/2, or between 0 and π, whose cosines and sines are not negative.
-            (Cos, Asin) | (Sin, Acos) => {
-                Some(self.sqrt(self.sub(self.one(), self.powi(y, 2))))
-            }
+            (Cos, Asin) | (Sin, Acos) => Some(self.sqrt(self.sub(self.one(), self.powi(y, 2)))),
             (Cos, Atan) => Some(self.powi(self.hypotenuse(y), -1)),
             (Sin, Atan) => Some(self.div(y, self.hypotenuse(y))),
             _ => None,

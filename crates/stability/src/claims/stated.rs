@@ -38,7 +38,8 @@ impl Claim for Stated {
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         match about(cx, subject) {
             Some(Ok(own))
-                if own.question.is_mass_singular() && own.expansion.has_regular_mass_somewhere() =>
+                if own.question.is_mass_singular()
+                    && own.expansion.has_regular_mass_somewhere() =>
             {
                 Verdict::undecided(SINGULAR).into()
             }

@@ -288,7 +288,10 @@ phi = "pi/2"
     for claim in ["steady.stated", "stability.spectral"] {
         let found = case.verdict(claim, "centre");
         assert!(matches!(found, Verdict::Undecided { .. }), "{found:?}");
-        assert!(found.detail().contains("mass matrix is singular"), "{found:?}");
+        assert!(
+            found.detail().contains("mass matrix is singular"),
+            "{found:?}"
+        );
     }
 }
 
@@ -308,7 +311,10 @@ x = -1
     );
     let found = case.verdict("steady.stated", "m");
     assert!(matches!(found, Verdict::Refuted(_)), "{found:?}");
-    assert!(found.detail().contains("`x > 0` does not hold"), "{found:?}");
+    assert!(
+        found.detail().contains("`x > 0` does not hold"),
+        "{found:?}"
+    );
     let found = case.verdict("stability.linear", "m");
     assert!(!matches!(found, Verdict::Proved(_)), "{found:?}");
 }

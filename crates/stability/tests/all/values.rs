@@ -558,7 +558,10 @@ fn functions_with_square_roots_vanish_where_they_do() {
     near("p - sqrt(2 - p^2)", &[1.0]);
     near("sqrt(p + sqrt(p + 2))", &[-1.0]);
     near("2 + sqrt(4 - p^2) - p/10", &[]);
-    near("(1 - p^2)^(3/2) + (1 - p^2)^(1/2)*(p - 1/2)", &[-1.0, 0.5 - three / 2.0, 1.0]);
+    near(
+        "(1 - p^2)^(3/2) + (1 - p^2)^(1/2)*(p - 1/2)",
+        &[-1.0, 0.5 - three / 2.0, 1.0],
+    );
 }
 
 /// A pendulum under a constant torque p: it stands at asin p up to p = 1, where both equilibria meet.

@@ -350,8 +350,22 @@ impl Grid<'_> {
         };
         match dividing.iter().position(changes) {
             Some(own) => (place, dividing[own].kind, Some(own)),
-            None => (place, self.kind_near(place), None),
+            None => {
+                let kind = self.kind_near(place);
+                let mut all = dividing.iter();
+                let own = all.position(|own| own.kind == kind && self.vanishes_about(own, place));
+                (place, kind, own)
+            }
         }
+    }
+
+    /// Whether a function changes its sign about a place, as where a boundary runs along an edge.
+    fn vanishes_about(&self, own: &Dividing, place: (f64, f64)) -> bool {
+        let (origin, cell) = (self.place(0.0, 0.0), self.place(BESIDE, BESIDE));
+        let (dx, dy) = (cell.0 - origin.0, cell.1 - origin.1);
+        let beside = [(dx, 0.0), (-dx, 0.0), (0.0, dy), (0.0, -dy)];
+        let signs = beside.map(|(x, y)| self.number(own.function, (place.0 + x, place.1 + y)));
+        signs[0] * signs[1] < 0.0 || signs[2] * signs[3] < 0.0
     }
 
     fn number(&self, e: Expr, place: (f64, f64)) -> f64 {
@@ -402,13 +416,32 @@ impl Grid<'_> {
         let located = on_threads(self.threads, crossed.len(), located, &mut |_| {});
         let used = located.iter().filter_map(|own| own.2).collect();
         let places: BTreeMap<Edge, Located> = crossed.iter().copied().zip(located).collect();
-        let pieces = |chain: &Vec<Edge>| {
-            by_kind(chain.iter().map(|edge| {
-                let (place, kind, _) = places[edge];
-                (place, kind)
-            }))
+        let meeting = |a: Located, b: Located| {
+            let functions = [dividing.get(a.2?)?.function, dividing.get(b.2?)?.function];
+            self.meeting(functions, (a.0, b.0))
         };
+        let pieces = |chain: &Vec<Edge>| by_kind(chain.iter().map(|edge| places[edge]), &meeting);
         (chains(joined).iter().flat_map(pieces).collect(), used)
+    }
+
+    /// Where two functions vanish together near places of a boundary at which one of them does each, by Newton's method from between them: where
+    /// boundaries meet; `None` where that is not within two cells.
+    fn meeting(&self, functions: [Expr; 2], (a, b): Pair) -> Option<(f64, f64)> {
+        let (start, g) = ((0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1)), self.g);
+        let slopes = functions.map(|e| self.over.map(|s| g.diff(e, s)));
+        let mut at = start;
+        for _ in 0..MEETING {
+            let [f, h] = functions.map(|e| self.number(e, at));
+            let [[a, b], [c, d]] = slopes.map(|row| row.map(|e| self.number(e, at)));
+            let determinant = a * d - b * c;
+            at.0 -= (d * f - b * h) / determinant;
+            at.1 -= (a * h - c * f) / determinant;
+        }
+        let (origin, cell) = (self.place(0.0, 0.0), self.place(1.0, 1.0));
+        let near = |x: f64, y: f64, width: f64| (x - y).abs() <= 2.0 * width.abs();
+        let is_near =
+            near(at.0, start.0, cell.0 - origin.0) && near(at.1, start.1, cell.1 - origin.1);
+        is_near.then_some(at)
     }
 
     /// Functions on whose zeros boundaries may lie, as those of one parameter do.
@@ -472,6 +505,12 @@ struct Dividing {
 /// A place of a boundary, what passes there, and the number of the function that vanishes.
 type Located = ((f64, f64), &'static str, Option<usize>);
 
+/// Two places.
+type Pair = ((f64, f64), (f64, f64));
+
+/// Steps to where boundaries meet.
+const MEETING: usize = 30;
+
 /// How far from a boundary signs are compared, in parts of an edge.
 const BESIDE: f64 = 1e-4;
 
@@ -500,24 +539,30 @@ fn chains(mut joined: BTreeMap<Edge, Vec<Edge>>) -> Vec<Vec<Edge>> {
     }
 }
 
-/// Pieces of a chain of places of the same kind; neighbours share the place between them.
-fn by_kind(places: impl Iterator<Item = ((f64, f64), &'static str)>) -> Vec<Curve> {
+/// Pieces of a chain of places of the same kind, each up to where it meets the next, if that is known.
+fn by_kind(
+    places: impl Iterator<Item = Located>,
+    meeting: &dyn Fn(Located, Located) -> Option<(f64, f64)>,
+) -> Vec<Curve> {
     let mut found: Vec<Curve> = Vec::new();
-    for (place, kind) in places {
+    let mut before: Option<Located> = None;
+    for own in places {
+        let (place, kind, _) = own;
         match found.last_mut() {
             Some(last) if last.kind == kind => last.points.push(place),
-            Some(last) => {
-                last.points.push(place);
+            last => {
+                let corner = before.and_then(|before| meeting(before, own));
+                if let (Some(last), Some(corner)) = (last, corner) {
+                    last.points.push(corner);
+                }
+                let points = corner.into_iter().chain([place]);
                 found.push(Curve {
                     kind,
-                    points: vec![place],
+                    points: points.collect(),
                 });
             }
-            None => found.push(Curve {
-                kind,
-                points: vec![place],
-            }),
         }
+        before = Some(own);
     }
     found.retain(|own| own.points.len() > 1);
     found

@@ -395,6 +395,36 @@ fn a_map_says_what_passes() {
     }
 }
 
+/// With x'' = −p x − c x' − y/2 and y'' = −y + x − y'/3 an eigenvalue is zero where p = −1/2, for every c, and a pair passes where Δ₃ = 0; each
+/// boundary of the map lies on its own curve up to where both meet.
+#[test]
+fn boundaries_of_a_map_end_where_they_meet() {
+    let text = "name = \"own\"\ncoordinates = [\"x\", \"y\"]\nparameters = { p = 1, c = 1 }\nlagrangian = \"1/2 x'^2 + 1/2 y'^2 - 1/2 p x^2 - 1/2 y^2\"\nforces = { x = \"-c x' - y/2\", y = \"x - y'/3\" }\n[steady.rest]\nx = 0\ny = 0\n";
+    let over = Wanted {
+        over: Some("p=-2:2,c=0.01:2"),
+        ..Wanted::default()
+    };
+    let found = map(&model(text), &over, &mut |_| {}).unwrap();
+    // λ⁴ + a λ³ + b λ² + d λ + e with e = p + 1/2.
+    let pair = |p: f64, c: f64| {
+        let (a, b, d, e) = (c + 1.0 / 3.0, p + 1.0 + c / 3.0, c + p / 3.0, p + 0.5);
+        a * b * d - d * d - a * a * e
+    };
+    let mut meets = 0;
+    for own in &found.curves {
+        for &(p, c) in &own.points {
+            let (zero, pair) = ((p + 0.5).abs() < 1e-9, pair(p, c).abs() < 1e-9);
+            assert!(
+                if own.kind == "zero" { zero } else { pair },
+                "{} {p} {c}",
+                own.kind
+            );
+            meets += usize::from(zero && pair);
+        }
+    }
+    assert_eq!(meets, 2, "{}", found.text());
+}
+
 /// x'' + c x' + k x = 0 with c = 10⁸ + 10⁻⁹ and k = 1/10 has the eigenvalues −10⁸ and −10⁻⁹: each is printed, as it is enclosed.
 #[test]
 fn slow_eigenvalues_beside_fast_ones_are_printed() {

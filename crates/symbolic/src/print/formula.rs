@@ -271,7 +271,9 @@ impl Formula {
 fn joined_roots(factors: Vec<Formula>) -> Vec<Formula> {
     let mut joined: Vec<Formula> = Vec::new();
     for own in factors {
-        let place = joined.iter().position(|known| of_roots(known, &own).is_some());
+        let place = joined
+            .iter()
+            .position(|known| of_roots(known, &own).is_some());
         match place.and_then(|at| Some((at, of_roots(&joined[at], &own)?))) {
             Some((at, root)) => joined[at] = root,
             None => joined.push(own),

@@ -188,8 +188,7 @@ impl Field<'_> {
         let places: Vec<usize> = (0..table.len())
             .filter(|&i| !is_kept(&table[i].form))
             .collect();
-        let basis: Vec<RationalFunction> =
-            places.iter().map(|&i| table[i].form.clone()).collect();
+        let basis: Vec<RationalFunction> = places.iter().map(|&i| table[i].form.clone()).collect();
         if let Some(found) = self.combination(form, &basis)? {
             let mut weights = vec![Rational::ZERO; table.len()];
             for (place, weight) in places.into_iter().zip(found) {
