@@ -485,36 +485,3 @@ z = {{ equation = "u = 0", on = "x = 1, y = 1" }}
     assert_eq!(word(""), "proved");
     assert_ne!(word("\"z\""), "proved");
 }
-
-/// With u' = 0 imposed the variations are the same at both ends, and −p u(0) − q u(2) is stationary where p + q = 0; that p = 0 and q = 0 needs values at
-/// the ends that are independent, and a proof names that.
-#[test]
-fn a_proof_says_that_it_takes_values_on_the_boundary_as_arbitrary() {
-    let text = r#"
-kind = "functional"
-name = "tied"
-density = "0 u"
-yields = ["left", "right"]
-imposed = ["still"]
-[domain]
-coordinates = ["x"]
-intervals = { x = [0, 2] }
-[fields]
-u = "scalar"
-[data]
-p = { kind = "scalar", on = "x = 0" }
-q = { kind = "scalar", on = "x = 2" }
-[boundary]
-"x = 0" = "-p u"
-"x = 2" = "-q u"
-[equations]
-still = "u,x = 0"
-left = { equation = "p = 0", on = "x = 0" }
-right = { equation = "q = 0", on = "x = 2" }
-"#;
-    let own = studied_text("p4p", text, &[]);
-    let said = format!("{:?}", decided(&own, "functional.euler"));
-    let named =
-        "if the values on the boundary of the variations that (still) leaves are arbitrary there";
-    assert!(said.contains(named), "{said}");
-}
