@@ -1,7 +1,7 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
 use super::on_box::on_box;
-use super::reduction::{reduced, restricted};
+use super::reduction::{admitted, reduced, restricted};
 use super::special_values::{put_in, unfit, where_settled};
 use super::traces::{traces, Traces};
 use super::{Claim, Context, Finding};
@@ -93,7 +93,7 @@ impl<'f> Inserted<'f> {
             solution,
         };
         let reduced = reduced(functional).functional;
-        match crate::variation::variation(&reduced) {
+        match admitted(&reduced) {
             Ok(own) => match restricted(&reduced, &own) {
                 None => inserted.verdict(&own, bound(&reduced, &own).as_deref()),
                 some => inserted.verdict(variation, some.as_deref()),

@@ -16,11 +16,10 @@ use self::exceptions::holds_at_zero;
 use self::plane::planes;
 use self::separation::separated;
 use super::branches::{branches, Branch};
-use super::reduction::{reduced, restricted};
+use super::reduction::{admitted, reduced, restricted};
 use super::traces::{traces, Traces};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role};
-use crate::variation::variation;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -121,7 +120,7 @@ fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option
     if conditions.is_empty() {
         return None;
     }
-    let own = variation(functional).ok()?;
+    let own = admitted(functional).ok()?;
     let comparison = Comparison::new(functional, &own, &[], &[]);
     let all = conditions.iter().filter(|own| own.excludes_zero());
     let mut all = all.map(|own| own.of);
@@ -130,7 +129,7 @@ fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option
 
 /// The verdict where some expressions are known not to be negative.
 fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
-    let own = match variation(functional) {
+    let own = match admitted(functional) {
         Ok(own) => own,
         Err(problem) => return Verdict::undecided(problem.to_string()),
     };
