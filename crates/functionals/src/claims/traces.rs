@@ -24,6 +24,9 @@ const MOST: usize = 8;
 /// Directions in which a symbol is looked at besides the axes.
 const DIRECTIONS: [[i64; 3]; 4] = [[1, 2, 3], [2, -1, 1], [-3, 1, 2], [1, 1, -1]];
 
+/// How conditions hold whose variations are not arbitrary, and what helps.
+const TOGETHER: &str = "only taken together; a multiplier under [multipliers] makes them single";
+
 /// What is known of the values on the boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Traces {
@@ -175,8 +178,8 @@ impl<'f> Bound<'f> {
 
     fn open(&self) -> Traces {
         Traces::Open(format!(
-            "whether the variations that {} admits have arbitrary values on the boundary was not decided: where they have not, the natural conditions \
-             hold only taken together; a multiplier under [multipliers] makes them single",
+            "whether the variations that are left by {} have arbitrary values on the boundary was not decided: where they have not, the natural \
+             conditions hold {TOGETHER}",
             self.labels()
         ))
     }
@@ -228,7 +231,8 @@ impl<'f> Bound<'f> {
         };
         let (given, free) = (rows(&self.given())?, rows(needed)?);
         let all: Vec<Expr> = given.iter().chain(&free).copied().collect();
-        let columns: Vec<Jet> = space.jets_in(&all).into_iter().collect();
+        let columns = space.jets_in(&all).into_iter();
+        let columns: Vec<Jet> = columns.filter(|jet| self.is_about(jet)).collect();
         let row = |&e: &Expr| columns.iter().map(|jet| space.partial(e, jet)).collect();
         let mut echelon = Echelon::new(space);
         given.iter().for_each(|e| {
@@ -285,8 +289,8 @@ impl<'f> Bound<'f> {
         };
         let on = value.piece.map_or("", |piece| piece.name.as_str());
         Traces::Open(format!(
-            "where {} holds, {slope}the variation of {component} on {on} is determined by those that are free elsewhere on the boundary, so that the \
-             natural conditions hold only taken together; a multiplier under [multipliers] makes them single",
+            "by {}, {slope}the variation of {component} on {on} is determined by those that are free elsewhere on the boundary, so that the \
+             natural conditions hold {TOGETHER}",
             self.labels()
         ))
     }
