@@ -9,6 +9,7 @@ pub mod cases;
 pub mod checks;
 pub mod citations;
 pub mod extent;
+pub mod functional;
 pub mod lines;
 pub mod literature;
 pub mod pages;

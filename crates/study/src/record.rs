@@ -85,6 +85,29 @@ pub struct FunctionalRecord {
     /// The same in index notation, where it has a short form.
     #[serde(default)]
     pub indexed: Vec<ConditionRecord>,
+    /// What imposed equations were solved for and put in, with what follows then; `null` where nothing was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub put_in: Option<PutInRecord>,
+}
+
+/// Fields for which something is put in because of what is imposed, and what the functional of the others is stationary for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PutInRecord {
+    /// What is put in for what.
+    pub values: Vec<ValueRecord>,
+    /// Euler equations of the fields that are left.
+    pub euler: Vec<ConditionRecord>,
+    /// Their conditions on pieces of the boundary, and where they meet.
+    pub boundary: Vec<ConditionRecord>,
+}
+
+/// A field, or a component of one, with what stands for it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ValueRecord {
+    /// The field.
+    pub of: String,
+    /// What stands for it.
+    pub value: String,
 }
 
 /// A coefficient of the first variation, which vanishes.

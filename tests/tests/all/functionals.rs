@@ -1,8 +1,10 @@
 //! Functionals over space as people see them: the summary, the report, and LaTeX.
 #![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
+use chetaev_tests::functional::PUT_IN;
 use chetaev_tests::places::{root, scratch};
-use chetaev_tests::program::{ok, text};
+use chetaev_tests::program::{ok, run, text};
+use serde_json::json;
 
 /// Every functional of the gallery, by its path from the root.
 fn functionals() -> Vec<String> {
@@ -146,4 +148,44 @@ fn an_equation_without_indices_is_named() {
     assert!(!out.contains("δs in components only"), "{out}");
     let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
     assert!(shown(&page).contains("no short form in index notation"));
+}
+
+/// v = u' is put in, so that 2 u'' = 0 and 2 u' = 0 are what is left: in the record, and in each notation of `derive`.
+#[test]
+fn what_is_put_in_is_recorded_and_derived() {
+    let folder = scratch("functional-put-in");
+    let path = folder.join("put-in.toml");
+    std::fs::write(&path, PUT_IN).expect("a model");
+    let record = ok(&["study", text(&path), "--out", text(&folder), "--json"]).json();
+    let own = &record["functional"]["put_in"];
+    assert_eq!(own["values"], json!([{"of": "v", "value": "u,x"}]));
+    let zeros = |list: &str| -> Vec<String> {
+        let all = own[list].as_array().expect("a list").iter();
+        all.map(|e| format!("{} {} {}", e["on"], e["of"], e["zero"]))
+            .collect()
+    };
+    assert_eq!(zeros("euler"), [r#"null "δu" "-2 u,xx""#]);
+    assert_eq!(zeros("boundary"), [r#""x = 1" "δu" "2 u,x""#]);
+    let recorded = folder.join("study.json");
+    let replay = ok(&["verify", text(&recorded)]);
+    assert!(!replay.both().contains("DISAGREES"), "{}", replay.both());
+    let other = std::fs::read_to_string(&recorded).expect("a record");
+    let changed = other.replace("\"value\": \"u,x\"", "\"value\": \"u,xx\"");
+    assert_ne!(changed, other);
+    std::fs::write(&recorded, changed).expect("a record");
+    assert!(run(&["verify", text(&recorded)])
+        .both()
+        .contains("DISAGREES"));
+    for (notation, wanted) in [
+        ("text", "v - u,x = 0"),
+        ("sympy", "u_x"),
+        ("json", "-2 u,xx = 0"),
+        ("latex", "Euler equations with that"),
+    ] {
+        let out = ok(&["derive", text(&path), "--as", notation]).out;
+        assert!(out.contains("imposed, to be put in"), "{notation}: {out}");
+        assert!(out.contains(wanted), "{notation}: {out}");
+    }
+    let none = ok(&["derive", "gallery/elasticity/p4p/model.toml"]).out;
+    assert!(!none.contains("put in"), "{none}");
 }

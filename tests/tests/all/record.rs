@@ -1,6 +1,7 @@
 //! `study.json` follows its schema, the schema is strict, and the page about it explains every field.
 #![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
+use chetaev_tests::functional::PUT_IN;
 use chetaev_tests::places::{root, scratch};
 use chetaev_tests::program::{run, text};
 use chetaev_tests::schema::{schema, Schema};
@@ -61,6 +62,20 @@ fn records() -> Vec<(String, Value)> {
     let out = folder.join("symbolic");
     let finished = run(&["study", text(&symbolic), "--out", text(&out), "--json"]);
     records.push(("a symbolic model".into(), finished.json()));
+    for model in [
+        "gallery/elasticity/pc/model.toml",
+        "gallery/elasticity/p4p/model.toml",
+    ] {
+        let finished = run(&["study", model, "--out", text(&out), "--json"]);
+        records.push((model.into(), finished.json()));
+    }
+    let put_in = folder.join("put-in.toml");
+    std::fs::write(&put_in, PUT_IN).expect("a model");
+    let finished = run(&["study", text(&put_in), "--out", text(&out), "--json"]);
+    records.push((
+        "a functional of which something is put in".into(),
+        finished.json(),
+    ));
     records
 }
 

@@ -19,6 +19,7 @@ pub(crate) mod ritz;
 mod second_variation;
 mod solution;
 mod special_values;
+mod traces;
 mod variations;
 
 use self::admission::Admission;

@@ -8,7 +8,7 @@ use super::given::{given_by, is_given, is_regular, Given};
 use crate::elimination::{Group, Solved};
 use crate::functional::{names_in, Equation, Functional, Piece, Role};
 use crate::space::Jet;
-use crate::variation::Variation;
+use crate::variation::{variation, Corner, Variation, VariationError};
 use chetaev_symbolic::Expr;
 
 /// A functional in which what is imposed is put in.
@@ -174,6 +174,46 @@ fn given(functional: &mut Functional) -> bool {
     !found.is_empty()
 }
 
+/// The first variation without the conditions of what is imposed where pieces meet, as it is not varied there.
+///
+/// # Errors
+/// Orders that are not treated.
+pub(super) fn admitted(functional: &Functional) -> Result<Variation, VariationError> {
+    let mut own = variation(functional)?;
+    let given: Vec<(&Equation, Vec<usize>)> = functional
+        .restricting()
+        .filter_map(|equation| Some((equation, given_where_meeting(functional, equation)?)))
+        .collect();
+    let is_given = |corner: &Corner| {
+        let pieces = [corner.pieces.0.as_str(), corner.pieces.1.as_str()];
+        given.iter().any(|(equation, components)| {
+            let names = names_in(equation.on.as_deref().unwrap_or_default());
+            let is_here = names.len() == 2 && pieces.iter().all(|piece| names.contains(piece));
+            is_here && components.contains(&corner.component)
+        })
+    };
+    own.corners.retain(|corner| !is_given(corner));
+    Ok(own)
+}
+
+/// The components that an equation imposed where pieces meet gives there, each in an equation of its own; `None` where it is imposed elsewhere
+/// or is another condition.
+fn given_where_meeting(functional: &Functional, equation: &Equation) -> Option<Vec<usize>> {
+    let space = &*functional.space;
+    functional.meeting(equation.on.as_deref()?)?;
+    let given = |&e: &Expr| {
+        let jets = space.jets_in(&[e]).into_iter();
+        let open: Vec<Jet> = jets
+            .filter(|jet| functional.varies(jet.component))
+            .collect();
+        match &open[..] {
+            [jet] if jet.by.is_empty() && is_regular(space, e, jet) => Some(jet.component),
+            _ => None,
+        }
+    };
+    equation.residuals.iter().map(given).collect()
+}
+
 /// Why the variations are restricted in a way that the Euler equations do not know.
 pub(super) fn restricted(functional: &Functional, variation: &Variation) -> Option<String> {
     let space = &*functional.space;
@@ -193,7 +233,8 @@ pub(super) fn restricted(functional: &Functional, variation: &Variation) -> Opti
     };
     let mut open = functional
         .restricting()
-        .filter(|equation| !is_of_given(functional, equation));
+        .filter(|equation| !is_of_given(functional, equation))
+        .filter(|equation| given_where_meeting(functional, equation).is_none());
     open.find_map(|equation| {
         let own = components(equation);
         let values: Vec<Expr> = match &equation.on {

@@ -1,8 +1,9 @@
 //! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
 
 use super::on_box::on_box;
-use super::reduction::{reduced, restricted};
+use super::reduction::{admitted, reduced, restricted};
 use super::special_values::{put_in, unfit, where_settled};
+use super::traces::{traces, Traces};
 use super::{Claim, Context, Finding};
 use crate::functional::{names_in, Functional, Role, Side, Solution, Special, SpecialKind};
 use crate::integral::{coefficients, over_box, over_face};
@@ -65,6 +66,17 @@ impl Claim for Stated {
     }
 }
 
+/// Why natural conditions may hold only taken together.
+fn bound(functional: &Functional, variation: &Variation) -> Option<String> {
+    match traces(functional, variation) {
+        Traces::Arbitrary => None,
+        Traces::Where(condition) => Some(format!(
+            "the natural conditions hold one by one where {condition}"
+        )),
+        Traces::Open(why) => Some(why),
+    }
+}
+
 struct Inserted<'f> {
     functional: &'f Functional,
     solution: &'f Solution,
@@ -81,9 +93,9 @@ impl<'f> Inserted<'f> {
             solution,
         };
         let reduced = reduced(functional).functional;
-        match crate::variation::variation(&reduced) {
+        match admitted(&reduced) {
             Ok(own) => match restricted(&reduced, &own) {
-                None => inserted.verdict(&own, None),
+                None => inserted.verdict(&own, bound(&reduced, &own).as_deref()),
                 some => inserted.verdict(variation, some.as_deref()),
             },
             Err(_) => inserted.verdict(variation, None),

@@ -464,7 +464,11 @@ impl Solved<'_> {
         matrix.iter().zip(rest).all(|(row, &rest)| {
             let mut terms: Vec<Expr> = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x])).collect();
             terms.push(rest);
-            self.space.vanishes(g.add(&terms))
+            let e = g.add(&terms);
+            // Most candidates are none, which one point of a prime field tells.
+            let mut forms = [e, self.space.explicit(e)].into_iter();
+            forms.any(|e| self.space.seems_to_vanish(self.space.on_sphere(e)))
+                && self.space.vanishes(e)
         })
     }
 

@@ -3,6 +3,7 @@
 //! A function applied to arguments is a symbol of the graph with derivatives of its own. Applications are known by function, slots
 //! of differentiation and arguments, so that one symbol never means two things.
 
+use super::kept::Asked;
 use super::{pairs, Space};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,6 +77,7 @@ impl Space {
         let mut all = self.functions.borrow_mut();
         all[one].conjugate = Some(other);
         all[other].conjugate = Some(one);
+        self.kept.clear();
     }
 
     /// Place-holders for the argument of a function.
@@ -92,6 +94,7 @@ impl Space {
         self.gradients
             .borrow_mut()
             .insert(function, Rule { slots, values });
+        self.kept.clear();
     }
 
     /// States the value of a function, in its place-holders.
@@ -103,6 +106,7 @@ impl Space {
             .insert(function, Rule { slots, values });
         self.conjugations.borrow_mut().clear();
         self.known.borrow_mut().clear();
+        self.kept.clear();
     }
 
     /// Keeps the determinant of the gradient of a function that is linear.
@@ -131,7 +135,7 @@ impl Space {
         }
         let open = Verdict::undecided("the functions are stated by each other");
         self.conjugations.borrow_mut().insert(pair, Some(open));
-        let decided = decide();
+        let decided = self.kept.while_open(decide);
         self.conjugations.borrow_mut().insert(pair, decided.clone());
         decided
     }
@@ -154,6 +158,10 @@ impl Space {
 
     /// The expression with every function replaced by its stated value, where one is stated.
     pub fn explicit(&self, e: Expr) -> Expr {
+        self.once(Asked::Explicit(e), || self.with_formulas(e))
+    }
+
+    fn with_formulas(&self, e: Expr) -> Expr {
         let stated: Vec<usize> = self.bodies.borrow().keys().copied().collect();
         stated.into_iter().fold(e, |e, function| {
             let rule = |arguments: &[Expr]| {
@@ -203,10 +211,11 @@ impl Space {
         if !self.sought.borrow_mut().insert(application.clone()) {
             return self.intern(&application);
         }
-        let value = self
-            .conjugated(&application)
-            .or_else(|| self.by_gradient(&application))
-            .unwrap_or_else(|| self.intern(&application));
+        let value = self.kept.while_open(|| {
+            self.conjugated(&application)
+                .or_else(|| self.by_gradient(&application))
+                .unwrap_or_else(|| self.intern(&application))
+        });
         self.sought.borrow_mut().remove(&application);
         self.known.borrow_mut().insert(application, value);
         value

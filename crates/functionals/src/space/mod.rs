@@ -9,9 +9,11 @@
 //! other wherever one is applied to the gradient of the other. Both are exact, so that what is proved holds for every energy.
 
 mod constitution;
+mod kept;
 mod zero;
 
 pub use constitution::Function;
+use kept::{Asked, Kept};
 pub(crate) use zero::not_sought;
 
 use chetaev_symbolic::zero::assumptions::Assumptions;
@@ -96,6 +98,8 @@ pub struct Space {
     symbols: RefCell<FxHashMap<Expr, Rc<[Symbol]>>>,
     /// Whether an expression has a jet with a coefficient without jets.
     linear: RefCell<FxHashMap<Expr, bool>>,
+    /// Derivatives and formulas that were asked for.
+    kept: Kept,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -156,6 +160,7 @@ impl Space {
             vanishing: RefCell::default(),
             symbols: RefCell::default(),
             linear: RefCell::default(),
+            kept: Kept::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }
@@ -289,14 +294,20 @@ impl Space {
         let wanted = self.jet(jet.component, &jet.by);
         let symbol = self.graph.as_symbol(wanted);
         let one = self.graph.one();
-        if !symbol.is_some_and(|own| self.depends(e, own)) {
+        let Some(symbol) = symbol.filter(|&own| self.depends(e, own)) else {
             return self.graph.zero();
-        }
-        self.derive(e, &|s| (Some(s) == symbol).then_some(one))
+        };
+        self.once(Asked::Partial(e, symbol), || {
+            self.derive(e, &|s| (s == symbol).then_some(one))
+        })
     }
 
     /// The total derivative by an independent variable; the normal is that of a piece and of the surfaces parallel to it.
     pub fn total(&self, e: Expr, axis: usize) -> Expr {
+        self.once(Asked::Total(e, axis), || self.derived_along(e, axis))
+    }
+
+    fn derived_along(&self, e: Expr, axis: usize) -> Expr {
         let coordinate = self.graph.as_symbol(self.coordinates[axis].expr);
         let one = self.graph.one();
         self.derive(e, &|symbol| {

@@ -35,6 +35,7 @@ mod smoothness;
 mod squares;
 mod strata;
 mod table;
+mod traces;
 mod values;
 mod wholes;
 

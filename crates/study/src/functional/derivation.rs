@@ -1,6 +1,7 @@
 //! Euler equations and natural conditions in one notation: what `derive` prints of a functional.
 
 use super::equations::{boundary, euler, indexed_euler, indexed_natural, options, Indexed, Shown};
+use super::substitution::substituted;
 use super::typesetting::{in_print, variation_name};
 use crate::written::latex::{escaped, BEGIN};
 use chetaev_functionals::functional::Functional;
@@ -27,6 +28,7 @@ pub fn derivation(functional: &Functional, format: Format) -> Result<String, Var
             shown,
         });
     }
+    parts.extend(put_in(functional));
     Ok(match format {
         Format::Sympy => as_module(functional, &parts),
         Format::Json => as_json(functional, &parts),
@@ -36,6 +38,28 @@ pub fn derivation(functional: &Functional, format: Format) -> Result<String, Var
             .map(|part| part.text(functional, format))
             .collect(),
     })
+}
+
+/// What is put in because it is imposed, with what follows then.
+fn put_in(functional: &Functional) -> Vec<Part> {
+    let Some(own) = substituted(functional) else {
+        return Vec::new();
+    };
+    let part = |title: String, shown: Vec<Shown>| Part {
+        title,
+        indexed: Vec::new(),
+        shown,
+    };
+    let mut parts = vec![part(
+        "what is imposed, to be put in".to_owned(),
+        own.shown(),
+    )];
+    parts.push(part("Euler equations with that".to_owned(), own.euler));
+    let on_pieces = own.boundary.into_iter();
+    parts.extend(
+        on_pieces.map(|(piece, shown)| part(format!("conditions on {piece} with that"), shown)),
+    );
+    parts
 }
 
 struct Part {

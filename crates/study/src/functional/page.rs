@@ -228,7 +228,7 @@ fn with_imposed(f: &Functional) -> Option<EquationSection> {
     let own = substituted(f)?;
     let said = format!(
         "With {} the fields that are left are varied freely; what follows stands here as far as it is short, with the place where it is not the interior.",
-        own.values.iter().map(|own| format!("`{own}`")).collect::<Vec<_>>().join(", ")
+        own.texts().iter().map(|own| format!("`{own}`")).collect::<Vec<_>>().join(", ")
     );
     let on = own.boundary.into_iter().flat_map(|(piece, all)| {
         all.into_iter().map(move |shown| Shown {

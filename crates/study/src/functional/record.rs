@@ -2,14 +2,16 @@
 
 use super::equations::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use super::flat::flat;
+use super::substitution::substituted;
 use crate::record::{
-    of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
-    VerdictRecord, WorkRecord, WrittenRecord, SCHEMA,
+    of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, PutInRecord, Record,
+    ValueRecord, VerdictRecord, WorkRecord, WrittenRecord, SCHEMA,
 };
 use chetaev_functionals::functional::{Functional, Role};
 use chetaev_functionals::notation::written;
 use chetaev_functionals::study::Decided;
 use chetaev_functionals::Study;
+use chetaev_symbolic::meter::UNITS_PER_SECOND;
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::Graph;
 
@@ -32,7 +34,9 @@ pub fn record(study: &Study, claims: &[String], files: &[WrittenRecord]) -> Reco
             ..OptionsRecord::default()
         },
         files: files.to_vec(),
-        work: WorkRecord::default(),
+        work: WorkRecord {
+            units_per_second: UNITS_PER_SECOND,
+        },
         functional: Some(functional(study)),
     }
 }
@@ -87,7 +91,29 @@ fn functional(study: &Study) -> FunctionalRecord {
         euler: inside,
         boundary: conditions,
         indexed,
+        put_in: put_in(own),
     }
+}
+
+/// What is put in because it is imposed, with what follows then.
+fn put_in(functional: &Functional) -> Option<PutInRecord> {
+    let own = substituted(functional)?;
+    let g = &own.functional.space.graph;
+    let values = own.named().into_iter();
+    let values = values.map(|(of, value)| ValueRecord { of, value });
+    let on_pieces = own.boundary.iter().flat_map(|(piece, all)| {
+        all.iter()
+            .map(move |shown| condition(g, Some(piece), shown))
+    });
+    Some(PutInRecord {
+        values: values.collect(),
+        euler: own
+            .euler
+            .iter()
+            .map(|shown| condition(g, None, shown))
+            .collect(),
+        boundary: on_pieces.collect(),
+    })
 }
 
 fn in_indices(functional: &Functional, on: Option<&str>, shown: &Indexed) -> ConditionRecord {

@@ -92,7 +92,7 @@ fn with_imposed(text: &mut String, study: &Study, style: Style) {
     let f = &study.problem.functional;
     let Some(own) = substituted(f) else { return };
     let _ = writeln!(text, "\n{}", bold(style, "with what is imposed put in"));
-    text.push_str(&hanging("    ", &own.values.join(", ")));
+    text.push_str(&hanging("    ", &own.texts().join(", ")));
     let g = &f.space.graph;
     let is_written = |own: &Shown| simplify::length(g, own.value) <= WRITTEN;
     let mut shown = |own: Vec<Shown>| {

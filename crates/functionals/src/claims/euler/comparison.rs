@@ -122,19 +122,11 @@ impl<'f> Comparison<'f> {
         let mut judged = Vec::new();
         let mut pivots: BTreeSet<Pivot> = BTreeSet::new();
         let mut inverted: BTreeSet<String> = BTreeSet::new();
-        let euler: Vec<Expr> = self.variation.euler.iter().map(|(_, e)| *e).collect();
-        let stated = self.residuals(None);
-        for equation in self
-            .functional
-            .with_role(Role::Yielded)
-            .filter(|e| e.on.is_none())
-        {
-            judged.push(self.equation(equation, &self.derived, &euler));
-        }
         // One equation that fails is enough, whatever else is to be said.
-        if let Some(refuted) = refutation(&judged) {
+        if let Some(refuted) = self.refuted_inside(&mut judged) {
             return refuted;
         }
+        let stated = self.residuals(None);
         for &(component, value) in &self.variation.euler {
             let name = self.functional.space.component_at(component).name;
             let what = format!("the Euler equation of {name}");
@@ -155,6 +147,16 @@ impl<'f> Comparison<'f> {
         self.edges(&mut judged);
         self.corners(&mut judged);
         self.joined(judged, &pivots, &inverted)
+    }
+
+    /// That an equation stated inside does not follow there; they are judged.
+    pub(super) fn refuted_inside(&self, judged: &mut Vec<Judged>) -> Option<Verdict> {
+        let euler: Vec<Expr> = self.variation.euler.iter().map(|(_, e)| *e).collect();
+        let stated = self.functional.with_role(Role::Yielded);
+        for equation in stated.filter(|e| e.on.is_none()) {
+            judged.push(self.equation(equation, &self.derived, &euler));
+        }
+        refutation(judged)
     }
 
     /// Where two faces meet: the conditions there, both ways.

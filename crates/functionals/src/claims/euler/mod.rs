@@ -16,10 +16,10 @@ use self::exceptions::holds_at_zero;
 use self::plane::planes;
 use self::separation::separated;
 use super::branches::{branches, Branch};
-use super::reduction::{reduced, restricted};
+use super::reduction::{admitted, reduced, restricted};
+use super::traces::{traces, Traces};
 use super::{Claim, Context, Finding};
 use crate::functional::{Functional, Role};
-use crate::variation::variation;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -44,7 +44,9 @@ impl Claim for Euler {
          body carry along, at most in proportion to itself, is decided at an end (the theorem of uniqueness, Lipschitz 1876). Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
          energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
          regular. Where a coefficient of the densities jumps or has a kink inside the body, conditions hold that are not derived, and the claim \
-         is not applicable. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
+         is not applicable. Equations with a stated multiplier are added to the density with it before the variation. Others that are imposed inside leave \
+         variations whose values on the boundary have to be arbitrary, else the natural conditions hold only taken together, and are not compared one by \
+         one: that is decided on a line where the variations are polynomials, and else by what a problem of Dirichlet needs. A refutation shows a \
          jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution (each equation of the body has \
          data of its own, or these are linear and each condition on the boundary has); else polynomials \
          that satisfy one system in the body and on its boundary, and not the other. Where there are none the claim is undecided, as conditions at \
@@ -118,7 +120,7 @@ fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option
     if conditions.is_empty() {
         return None;
     }
-    let own = variation(functional).ok()?;
+    let own = admitted(functional).ok()?;
     let comparison = Comparison::new(functional, &own, &[], &[]);
     let all = conditions.iter().filter(|own| own.excludes_zero());
     let mut all = all.map(|own| own.of);
@@ -127,12 +129,18 @@ fn vanishing_condition(functional: &Functional, conditions: &[Needed]) -> Option
 
 /// The verdict where some expressions are known not to be negative.
 fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
-    let own = match variation(functional) {
+    let own = match admitted(functional) {
         Ok(own) => own,
         Err(problem) => return Verdict::undecided(problem.to_string()),
     };
     if let Some(why) = restricted(functional, &own) {
         return Verdict::undecided(why);
+    }
+    let traces = traces(functional, &own);
+    if let Traces::Open(why) = traces {
+        let inside = Comparison::new(functional, &own, &[], nonnegative);
+        let refuted = inside.refuted_inside(&mut Vec::new());
+        return refuted.unwrap_or_else(|| Verdict::undecided(why));
     }
     let planes = planes(functional, &own);
     let comparison = Comparison::new(functional, &own, &planes, nonnegative);
@@ -143,8 +151,13 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
     if matches!(verdict, Verdict::Undecided { .. }) && nonnegative.is_empty() {
         return separated(functional, &own).unwrap_or(verdict);
     }
-    if !matches!(verdict, Verdict::Proved(_)) {
+    let Verdict::Proved(mut proof) = verdict else {
         return verdict;
+    };
+    if let Traces::Where(condition) = traces {
+        let said = format!(", where {condition}");
+        proof.on.push_str(&said);
+        proof.detail.push_str(&said);
     }
     let mut needed = comparison.nonzero.borrow().clone();
     for factor in comparison.nonzero.borrow().iter() {
@@ -158,7 +171,7 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
     let computed = functional.space.determinants().into_iter();
     needed.extend(computed.flat_map(|e| open_factors(functional, e)));
     where_nonzero(
-        verdict,
+        Verdict::Proved(proof),
         &needed.iter().map(|&factor| g.text(factor)).collect(),
     )
 }

@@ -154,22 +154,6 @@ impl<'f> Comparison<'f> {
             let verb = if imposed.len() == 1 { "holds" } else { "hold" };
             detail.push_str(&format!(", where {} {verb} beforehand", labels(&imposed)));
         }
-        let restricting = functional.restricting();
-        let inside: Vec<String> = restricting
-            .filter(|e| e.on.is_none())
-            .filter(|e| {
-                let jets = functional.space.jets_in(&e.residuals);
-                jets.iter().any(|jet| functional.varies(jet.component))
-            })
-            .map(|e| e.label.clone())
-            .collect();
-        if !inside.is_empty() {
-            let verb = if inside.len() == 1 { "leaves" } else { "leave" };
-            detail.push_str(&format!(
-                ", if the values on the boundary of the variations that {} {verb} are arbitrary there",
-                labels(&inside)
-            ));
-        }
         let multipliers: Vec<String> = functional
             .equations
             .iter()
