@@ -6,6 +6,7 @@ use crate::multipliers::eigenvalues;
 use crate::solution::solution;
 use crate::variational::{Extended, Order, Variational};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_stability::eigenvalues::{balanced, Balanced};
 use chetaev_stability::guess::near;
 use chetaev_stability::steady::numbers;
 
@@ -13,8 +14,8 @@ use chetaev_stability::steady::numbers;
 const NEAR: f64 = 1e-4;
 /// How long is looked, in times of the slowest mode that moves.
 const TIMES: f64 = 40.0;
-/// Eigenvalues below this part of the largest are zeros.
-const ZERO: f64 = 1e-6;
+/// Eigenvalues below this part of the matrix in suitable units may be zeros: those of a chain of length k are computed to the k-th root of rounding.
+const ZERO: f64 = 1e-3;
 
 /// What became of motions that begin near a steady one, for the values of parameters that the model states; `None` where they cannot be computed
 /// or finite constraints tie the variables.
@@ -40,15 +41,18 @@ pub fn perturbed_runs(
         start = solution(&mut equations, &start, 0.0).ok()?.0.unknowns;
     }
     let parameters: Vec<f64> = flow.parameters.iter().map(|own| own.1).collect();
-    let found = eigenvalues(&flow.slopes(&start, &parameters)?).ok()?;
-    let sizes: Vec<f64> = found.iter().map(|l| l.norm()).collect();
-    let largest = sizes.iter().copied().fold(0.0, f64::max);
-    let moving = sizes.into_iter().filter(|size| *size > ZERO * largest);
-    let slowest = moving.fold(f64::INFINITY, f64::min);
-    let end = if slowest.is_finite() {
-        TIMES / slowest
-    } else {
-        TIMES
+    let slopes = flow.slopes(&start, &parameters)?;
+    let found = eigenvalues(&slopes).ok()?;
+    let Balanced { matrix, unit, .. } = balanced(&slopes);
+    let size = matrix.norm() * unit;
+    let moving = found.iter().map(|l| l.norm());
+    let slowest = moving.filter(|own| *own > ZERO * size);
+    let slowest = slowest.fold(f64::INFINITY, f64::min);
+    let end = match (slowest.is_finite(), size > 0.0) {
+        (true, _) => TIMES / slowest,
+        // Nothing but zeros: motions run away, if at all, in times of the terms that couple them.
+        (false, true) => TIMES / size,
+        (false, false) => TIMES,
     };
     let mut runs = Variational::new(&flow, Vec::new(), Order::Motion).ok()?;
     let sizes = start.iter().map(|x| if *x == 0.0 { 1.0 } else { x.abs() });
