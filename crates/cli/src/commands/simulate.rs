@@ -75,6 +75,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             "\ntrajectory: {}\n",
             folder.join("trajectory.csv").display()
         ));
+        if varied.is_some() {
+            let path = folder.join("sensitivity.csv");
+            terminal::out(&format!("sensitivities: {}\n", path.display()));
+        }
     }
     study.outcome.exit_status()
 }

@@ -274,7 +274,10 @@ impl Stability {
                 "The motion is steady at these values of the parameters, and not at all others.\n"
             }
         };
-        format!("{reason}Numbers, exact for {}", values.join(", "))
+        match values.as_slice() {
+            [] => format!("{reason}Exact numbers: the model has no parameters"),
+            own => format!("{reason}Numbers, exact for {}", own.join(", ")),
+        }
     }
 
     fn polynomial_text(&self) -> String {
