@@ -12,7 +12,7 @@
 //!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] and [`singular`] in double precision,
 //!    `complex_zeros` all of them enclosed where the polynomial is known, [`enclosure`] one that is proved.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
-//!    [`real_roots`]; [`question`] puts it together; `about` keeps what is derived of a motion once, and `decision` decides a statement on it over the range of a parameter.
+//!    [`real_roots`], those of functions with square roots by their `norm`; [`question`] puts it together; `about` keeps what is derived of a motion once, and `decision` decides a statement on it over the range of a parameter.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions;
 //!    the theorems that are asked stand in `methods`, a file for each; those that need more than the linear equations expand them in
 //!    `neighbourhood`, on the `levels` of integrals, and reduce them to one equation in `branching`, that of a `critical` direction.
