@@ -1,6 +1,7 @@
 //! Whether something is left out where equations are not defined: not where the functions that a model states have no value, as there are no states
 //! of the system, and not where no constraint is satisfied.
 
+use crate::real_roots::{bound_of, real_roots};
 use crate::real_values::conditions;
 use crate::steady::{at_point, closed};
 use chetaev_mechanics::system::Relation;
@@ -8,18 +9,63 @@ use chetaev_mechanics::System;
 use chetaev_symbolic::common_zeros::real_common_zeros;
 use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::rational::is_negative;
 use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// Whether functions vanish together at no real state that satisfies the constraints.
 pub(crate) fn vanish_nowhere(system: &System, functions: &[Expr], values: &[(Expr, Expr)]) -> bool {
     let g = &system.graph;
+    let functions = functions.iter().flat_map(|&e| vanishing_together(g, e));
+    let functions: Vec<Expr> = functions.collect();
+    if functions.iter().any(|&e| has_no_real_zero(g, e)) {
+        return true;
+    }
     let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
     let constraints = system.constraints.iter().filter(|own| own.order <= 1);
     let constraints: Vec<Expr> = constraints.map(|own| own.stated).collect();
-    let all = [functions.to_vec(), at_point(g, &constraints, &[values])].concat();
+    let all = [functions, at_point(g, &constraints, &[values])].concat();
     let found = real_common_zeros(g, &all, &symbols, (&Assumptions::new(), BUDGET));
     found.is_some_and(|parts| parts.is_empty())
+}
+
+/// What vanishes where a function does: where it is a sum of squares that is written as one, all that is squared.
+fn vanishing_together(g: &Graph, e: Expr) -> Vec<Expr> {
+    let base = |own: Expr| match g.node(own) {
+        Node::Power { base, exponent } => {
+            let is_even = g.as_integer(*exponent).is_some_and(|n| n > 0 && n % 2 == 0);
+            is_even.then_some(*base)
+        }
+        _ => None,
+    };
+    let bases: Option<Vec<Expr>> = match g.node(e) {
+        Node::Sum { constant, terms } if constant.is_zero() => {
+            let of = |(own, coefficient): &(Expr, Rational)| {
+                base(*own).filter(|_| !is_negative(coefficient))
+            };
+            terms.iter().map(of).collect()
+        }
+        _ => base(e).map(|own| vec![own]),
+    };
+    match bases {
+        Some(all) => {
+            let all = all.into_iter();
+            all.flat_map(|own| vanishing_together(g, own)).collect()
+        }
+        None => vec![e],
+    }
+}
+
+/// Whether a function of one variable has no real zero.
+fn has_no_real_zero(g: &Graph, e: Expr) -> bool {
+    let roots = |symbol: Symbol| {
+        let bound = bound_of(g, &[e], symbol)?;
+        real_roots(g, e, symbol, &-bound.clone(), &bound)
+    };
+    match g.symbols_in(&[e])[..] {
+        [symbol] => roots(symbol).is_some_and(|own| own.is_empty()),
+        _ => false,
+    }
 }
 
 /// It is asked of sets that were found within little work.

@@ -736,3 +736,21 @@ p = 0
     // δp' = −cos p δp.
     assert_eq!(case.said("stability.asymptotic", "here"), "proved");
 }
+
+/// No chart serves where 2 z² = 1 and z = 0 at once, which is nowhere: nothing is left out.
+#[test]
+fn what_vanishes_nowhere_is_not_left_out() {
+    let own = found(&Case::new(
+        r#"
+coordinates = ["z", "x", "s"]
+[lagrangian]
+T = "1/2 (x'^2 + z'^2 + s'^2)"
+V = "1/2 x^2 + 1/2 s^2"
+[forces]
+z = "-z'"
+[constraints]
+c = "s + x z/2 - 2 z^2 s = 0"
+"#,
+    ));
+    assert!(own.is_complete(), "{:?}", own.excluded);
+}
