@@ -63,9 +63,7 @@ impl Graph {
                 Abs => Some(self.number(rational::abs(value))),
                 Sign => Some(self.integer(if rational::is_negative(value) { -1 } else { 1 })),
                 Log if value.is_one() => Some(self.zero()),
-                Acos if value.is_one() => Some(self.zero()),
-                Asin if value.is_one() => Some(self.scale(&half(), self.pi())),
-                _ => None,
+                _ => self.angle_of(function, x),
             };
         }
         if function == Log {
@@ -82,7 +80,22 @@ impl Graph {
                 return Some(value);
             }
         }
-        self.inverse_pair(function, x)
+        self.angle_of(function, x)
+            .or_else(|| self.inverse_pair(function, x))
+    }
+
+    /// `r π` where an inverse function of an angle has this value, r being a multiple of 1/6 or 1/4: acos(√3/2) is π/6.
+    fn angle_of(&self, function: Function, x: Expr) -> Option<Expr> {
+        use Function::*;
+        let (inverse, mut twelfths) = match function {
+            Asin => (Sin, -6..=6),
+            Acos => (Cos, 0..=12),
+            Atan => (Tan, -6..=6),
+            _ => return None,
+        };
+        let turn = |k: i64| rational::integer(k) / rational::integer(12);
+        let found = twelfths.find(|&k| self.trigonometric_value(inverse, &turn(k)) == Some(x))?;
+        Some(self.scale(&turn(found), self.pi()))
     }
 
     fn inverse_pair(&self, function: Function, x: Expr) -> Option<Expr> {
@@ -247,6 +260,23 @@ mod tests {
         );
         assert_eq!(g.apply(Function::Tan, &[at(1, 4)]), g.one());
         assert_eq!(g.cos(g.pi()), g.integer(-1));
+    }
+
+    /// π/6, π/4 and their multiples are found again from their sines, cosines and tangents, in the ranges of the inverse functions.
+    #[test]
+    fn angles_of_known_values() {
+        let g = Graph::new();
+        let at = |n: i64| g.scale(&ratio(n, 12).unwrap(), g.pi());
+        let inverse = |function, of, n| g.apply(function, &[g.apply(of, &[at(n)])]);
+        for n in [-6, -4, -3, -2, 0, 2, 3, 4, 6] {
+            assert_eq!(inverse(Function::Asin, Function::Sin, n), at(n));
+            assert_eq!(inverse(Function::Acos, Function::Cos, n + 6), at(n + 6));
+        }
+        for n in [-4, -3, -2, 0, 2, 3, 4] {
+            assert_eq!(inverse(Function::Atan, Function::Tan, n), at(n));
+        }
+        assert_eq!(inverse(Function::Asin, Function::Sin, 8), at(4));
+        assert_eq!(inverse(Function::Acos, Function::Cos, -4), at(4));
     }
 
     #[test]

@@ -491,7 +491,7 @@ fn all_states_of_rest_are_claimed() {
     starts(
         &bead,
         rest,
-        "proved: 4 states of rest: th = -acos(1/2) = -1.0471975",
+        "proved: 4 states of rest: th = -pi/3 = -1.0471975",
     );
     // Where x' = y the system rests for y = 0 only.
     let carried = Case::new(
