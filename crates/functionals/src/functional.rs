@@ -109,6 +109,8 @@ pub struct Equation {
     pub residuals: Vec<Expr>,
     /// What it is for the functional.
     pub role: Role,
+    /// Whether the model states that its problem of Dirichlet, linearised, is solvable for any values on the boundary.
+    pub is_solvable: bool,
     /// The multiplier stated for it, all components, as written and as an expression.
     pub multiplier: Option<(String, Vec<Expr>)>,
     /// Where it is written.

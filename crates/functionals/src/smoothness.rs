@@ -286,6 +286,8 @@ pub(crate) enum Coefficients {
     Smooth(Vec<String>),
     /// There are places inside where they are not.
     Broken(String),
+    /// Whether there are was not decided: what would have to hold at all places of a box.
+    Undecided(String),
 }
 
 impl Coefficients {
@@ -295,6 +297,7 @@ impl Coefficients {
         let g = &space.graph;
         let region = Region::new(space, functional.intervals.clone(), false);
         let mut open = Vec::new();
+        let mut undecided = None;
         let on_pieces = functional.pieces.iter().map(|piece| piece.density);
         let densities = std::iter::once(functional.density).chain(on_pieces);
         let all = densities.flat_map(|e| guards(g, space.explicit(e)));
@@ -302,6 +305,7 @@ impl Coefficients {
         let written = denominators(functional).into_iter();
         let written = written.flat_map(|e| factors_of(space, space.explicit(e)));
         for guard in of_place.chain(written.map(|e| (e, Relation::NotEqual))) {
+            let guard = without_squares(g, guard);
             let is_number = g.as_number(guard.0).is_some();
             if is_number || !space.jets_in(&[guard.0]).is_empty() {
                 continue;
@@ -316,10 +320,41 @@ impl Coefficients {
             match region.holds(guard) {
                 Some(true) => {}
                 Some(false) => return Coefficients::Broken(said(guard.1)),
+                None if is_of_box(functional, guard.0) => {
+                    undecided.get_or_insert_with(|| said(guard.1));
+                }
                 None if !open.contains(&said(guard.1)) => open.push(said(guard.1)),
                 None => {}
             }
         }
-        Coefficients::Smooth(open)
+        undecided.map_or(Coefficients::Smooth(open), Coefficients::Undecided)
     }
+}
+
+/// A guard with what is squared in it alone: a square is positive where its base is not zero.
+fn without_squares(g: &Graph, (e, relation): Guard) -> Guard {
+    let own = simplify(g, e, &Options::default());
+    match g.node(own) {
+        Node::Power { base, exponent } if relation != Relation::GreaterOrEqual => {
+            let is_even = g.as_integer(*exponent).is_some_and(|n| n > 0 && n % 2 == 0);
+            if is_even {
+                (*base, Relation::NotEqual)
+            } else {
+                (e, relation)
+            }
+        }
+        _ => (e, relation),
+    }
+}
+
+/// Whether an expression is one of places alone, in a box: that it does not vanish is then no condition on the body.
+fn is_of_box(functional: &Functional, e: Expr) -> bool {
+    let space = &*functional.space;
+    let places: Vec<_> = space
+        .coordinates
+        .iter()
+        .filter_map(|c| space.graph.as_symbol(c.expr))
+        .collect();
+    let mut symbols = space.symbols_in(&[e]).into_iter();
+    !functional.intervals.is_empty() && symbols.all(|s| places.contains(&s))
 }

@@ -1,5 +1,6 @@
 //! A motion in question with what is derived of it once, and what a statement on it is.
 
+use crate::admissible_values::not_real;
 use crate::bundle::{bundles, Bundle};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Boundary, Crossing};
@@ -8,7 +9,6 @@ use crate::isolation::Root;
 use crate::problem::LinearizationError;
 use crate::question::{general_parameters, parameter_of_motion, values_but, Place, Question};
 use crate::real_roots::sign_of;
-use crate::real_values::not_real;
 use crate::steady::closed;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::SteadyMotion;

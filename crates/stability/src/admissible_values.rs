@@ -4,7 +4,7 @@
 use crate::growth::flattened;
 use crate::isolation::Root;
 use crate::parameter_values::values_but;
-use crate::real_roots::{bound_of, decimal, real_roots, sign_at, sign_over};
+use crate::real_roots::{bound_of, decimal, real_roots, sign_at, sign_of, sign_over};
 use crate::real_values::{conditions, corners, Condition};
 use crate::steady::closed;
 use chetaev_mechanics::system::Relation;
@@ -308,4 +308,14 @@ fn corners_along(
         relation: Relation::NotEqual,
     })
     .collect()
+}
+
+/// The first of these numbers that is proved not to be real.
+pub(crate) fn not_real(g: &Graph, es: &[Expr]) -> Option<Expr> {
+    let fails = |own: &Condition| {
+        g.symbols_in(&[own.function]).is_empty()
+            && sign_of(g, own.function).is_some_and(|sign| !own.holds(sign))
+    };
+    let mut es = es.iter().copied();
+    es.find(|&e| conditions(g, &[e]).iter().any(fails))
 }

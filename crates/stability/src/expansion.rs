@@ -1,10 +1,11 @@
 //! A motion in its system: the smallest closed system of variables, and the values of expressions and of their derivatives at the motion.
 
+use crate::admissible_values::not_real;
 use crate::growth::{flattened, Flat};
 use crate::guess::near;
 use crate::problem::LinearizationError;
 use crate::real_roots::sign_of;
-use crate::real_values::{not_real, Condition};
+use crate::real_values::Condition;
 use crate::reduction::{ClosedSystem, OperatingPoint, Speeds};
 use crate::singular::least_part;
 use crate::steady::{at_point, closed, completed, controls, echelon, solution, State, SOMEWHERE};

@@ -3,21 +3,19 @@
 //! With one root taken out, `e = E + O √B`. The norm `E² − B O²` is the product of e and its conjugate `E − O √B`: it vanishes where e does, and
 //! contains one root fewer. Where the norm vanishes, e does if its conjugate does not, or if B vanishes too.
 
-use crate::isolation::Root;
-use crate::real_roots::{sign_at, sign_over, Zero};
-use chetaev_symbolic::factors::{coefficients, remainder};
+use crate::steady::closed;
+use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::rational::to_i64;
 use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
-use std::cmp::Ordering;
 
 /// A function with one of its square roots taken out.
 pub(crate) struct Norm {
     /// e, or what has the same zeros where it is defined.
-    function: Expr,
+    pub(crate) function: Expr,
     /// `E − O √B`.
-    conjugate: Expr,
+    pub(crate) conjugate: Expr,
     /// B.
-    radicand: Expr,
+    pub(crate) radicand: Expr,
     /// `E² − B O²`.
     pub(crate) value: Expr,
 }
@@ -46,34 +44,13 @@ impl Norm {
             g.pow(radicand, g.number(Rational::ONE / Rational::from(2))),
         ]);
         let squares = [g.powi(even, 2), g.neg(g.mul(&[radicand, g.powi(odd, 2)]))];
-        let value = crate::steady::closed(g, g.add(&squares));
+        let value = closed(g, g.add(&squares));
         (!g.is_zero(value)).then(|| Norm {
             function: g.add(&[even, times]),
             conjugate: g.sub(even, times),
             radicand,
             value,
         })
-    }
-
-    /// Whether the function vanishes at a zero of its norm; `None` where that was not decided.
-    pub(crate) fn vanishes(&self, g: &Graph, symbol: Symbol, zero: &Zero) -> Option<bool> {
-        let Root { low, high } = &zero.root;
-        let sign = |e: Expr| sign_over(g, e, symbol, &zero.root);
-        if sign(self.radicand) == Some(Ordering::Less) {
-            return Some(false);
-        }
-        if low == high {
-            return Some(sign_at(g, self.function, symbol, low)? == Ordering::Equal);
-        }
-        let rest = remainder(g, self.radicand, zero.factor, symbol);
-        if rest.is_some_and(|rest| g.is_zero(rest)) {
-            return Some(true);
-        }
-        match (sign(self.function), sign(self.conjugate)) {
-            (Some(Ordering::Less | Ordering::Greater), _) => Some(false),
-            (_, Some(Ordering::Less | Ordering::Greater)) => Some(true),
-            _ => None,
-        }
     }
 }
 

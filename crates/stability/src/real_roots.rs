@@ -8,7 +8,7 @@ use crate::norm::Norm;
 use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
 use chetaev_mechanics::system::Relation;
-use chetaev_symbolic::factors::{coefficients, factors};
+use chetaev_symbolic::factors::{coefficients, factors, remainder};
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 use dashu_ratio::RBig;
@@ -109,11 +109,32 @@ fn roots_by_norm(
 ) -> Option<Vec<Root>> {
     let zeros = zeros_of_factors(g, norm.value, symbol, (low, high), halvings)?;
     let of_function = |zero: Zero| {
-        let vanishes = norm.vanishes(g, symbol, &zero);
+        let vanishes = vanishes(g, norm, symbol, &zero);
         vanishes.map(|own| own.then_some(zero.root))
     };
     let found: Vec<Option<Root>> = zeros.into_iter().map(of_function).collect::<Option<_>>()?;
     Some(found.into_iter().flatten().collect())
+}
+
+/// Whether a function vanishes at a zero of its norm; `None` where that was not decided.
+fn vanishes(g: &Graph, norm: &Norm, symbol: Symbol, zero: &Zero) -> Option<bool> {
+    let Root { low, high } = &zero.root;
+    let sign = |e: Expr| sign_over(g, e, symbol, &zero.root);
+    if sign(norm.radicand) == Some(Ordering::Less) {
+        return Some(false);
+    }
+    if low == high {
+        return Some(sign_at(g, norm.function, symbol, low)? == Ordering::Equal);
+    }
+    let rest = remainder(g, norm.radicand, zero.factor, symbol);
+    if rest.is_some_and(|rest| g.is_zero(rest)) {
+        return Some(true);
+    }
+    match (sign(norm.function), sign(norm.conjugate)) {
+        (Some(Ordering::Less | Ordering::Greater), _) => Some(false),
+        (_, Some(Ordering::Less | Ordering::Greater)) => Some(true),
+        _ => None,
+    }
 }
 
 /// A function of a number that is not negative, in which roots of it occur, as one of the root r with p = r^k: where p^(1/2) has no slope, at

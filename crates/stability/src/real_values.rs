@@ -1,6 +1,5 @@
 //! For which values of parameters expressions are real numbers: what stands under roots, in logarithms and in inverse functions of angles.
 
-use crate::real_roots::sign_of;
 use chetaev_mechanics::system::Relation;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::node::{Function, Node};
@@ -118,14 +117,4 @@ pub(crate) fn corners(g: &Graph, es: &[Expr]) -> Vec<(Expr, Expr)> {
         _ => None,
     };
     g.reachable(es).into_iter().filter_map(corner).collect()
-}
-
-/// The first of these numbers that is proved not to be real.
-pub(crate) fn not_real(g: &Graph, es: &[Expr]) -> Option<Expr> {
-    let fails = |own: &Condition| {
-        g.symbols_in(&[own.function]).is_empty()
-            && sign_of(g, own.function).is_some_and(|sign| !own.holds(sign))
-    };
-    let mut es = es.iter().copied();
-    es.find(|&e| conditions(g, &[e]).iter().any(fails))
 }

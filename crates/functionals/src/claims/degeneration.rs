@@ -5,8 +5,11 @@ use super::special_values::{instance, put_in, unfit};
 use super::variations::Variations;
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Relation, Role, Special};
+use crate::space::Space;
+use crate::variation::euler_expression;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
+use std::collections::BTreeSet;
 
 /// `functional.degeneration#NAME`.
 pub(super) struct Degeneration;
@@ -135,6 +138,12 @@ impl Comparison<'_> {
                     notes.extend(note.map(|note| format!("{place} {note}")));
                 }
                 Err(verdict) => {
+                    let verdict = match *verdict {
+                        Verdict::Refuted(_) if on.is_none() && has_no_equations(space, difference) => {
+                            Verdict::undecided("by a divergence, and what that leaves on the boundary was not compared")
+                        }
+                        other => other,
+                    };
                     let what = match on {
                         None => "the densities of the interior".to_owned(),
                         Some(name) => format!("the densities on {name}"),
@@ -200,4 +209,13 @@ impl Comparison<'_> {
             other => other,
         }
     }
+}
+
+/// Whether the Euler expressions of a density vanish for all fields in it: it is a divergence.
+fn has_no_equations(space: &Space, density: Expr) -> bool {
+    let jets = space.jets_in(&[density]);
+    let components: BTreeSet<usize> = jets.iter().map(|jet| jet.component).collect();
+    let own = components.into_iter();
+    let all: Vec<Expr> = own.map(|c| euler_expression(space, density, c)).collect();
+    space.vanish(&all)
 }

@@ -212,7 +212,10 @@ fn with_flux(functional: &Functional, other: &Functional, flux: &Flux) -> Findin
                 let verdict = not_cancelled(space, flux, sum, verdict);
                 let verdict = match verdict {
                     Verdict::Refuted(_) if flux::leaves_edges_only(space, &piece.side, sum) => {
-                        Verdict::undecided("their sum is a divergence along it, and what that leaves where faces meet was not compared")
+                        Verdict::undecided(match piece.side {
+                            Side::Flat { .. } => "their sum is a divergence along it, and what that leaves where faces meet was not compared",
+                            Side::Curved => "whether their sum is a divergence along it was not decided, as it contains derivatives",
+                        })
                     }
                     other => other,
                 };

@@ -215,6 +215,11 @@ fn where_smooth(coefficients: &Coefficients, verdict: Verdict) -> Verdict {
                 ),
             )
         }
+        (Coefficients::Undecided(why), Verdict::Proved(_) | Verdict::Conditional { .. }) => {
+            Verdict::undecided(format!(
+                "whether the density is smooth in the body was not decided: {why} would have to hold everywhere in it"
+            ))
+        }
         (Coefficients::Smooth(open), Verdict::Proved(mut proof)) if !open.is_empty() => {
             let own = open.iter().map(String::as_str);
             let new: Vec<&str> = own.filter(|own| !proof.on.contains(own)).collect();

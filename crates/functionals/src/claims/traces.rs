@@ -4,8 +4,8 @@
 //! equations that are linear with polynomials for solutions, these decide. Else the question is the problem of Dirichlet, which as many equations
 //! as fields may have, all of an order 2k and with a symbol that is regular for the normal and of one sign: values and derivatives across the
 //! boundary below the k-th are prescribed. It is solvable but in critical states (L. Hörmander, The Analysis of Linear Partial Differential
-//! Operators III, 1985, ch. 20), and a proof says so; of equations that are linear, with terms of lower order, none is given, as every state is
-//! critical for u'' + π² u = 0 on 0 < x < 1.
+//! Operators III, 1985, ch. 20). That is not decided here: `solvable` in the model states it, and a proof says so; of equations that are linear, with
+//! terms of lower order, none is given, as every state is critical for u'' + π² u = 0 on 0 < x < 1.
 
 use super::given::{is_given, Given};
 use crate::elimination::{Group, Solved};
@@ -316,10 +316,62 @@ impl<'f> Bound<'f> {
         if !is_posed || self.are_linear() && has_lower {
             return self.open();
         }
+        if self.is_coercive() {
+            return Traces::Arbitrary;
+        }
+        let labels = self.labels();
+        if !self.equations.iter().all(|e| e.is_solvable) {
+            let named: Vec<String> = self
+                .equations
+                .iter()
+                .map(|e| format!("{:?}", e.label))
+                .collect();
+            return Traces::Open(format!(
+                "whether the problem of Dirichlet of {labels}, linearised, is solvable for any values on the boundary was not decided: where it is not, the \
+                 natural conditions hold {TOGETHER}, and where it is, solvable = [{}] states it",
+                named.join(", ")
+            ));
+        }
         Traces::Where(format!(
-            "the problem of Dirichlet of {}, linearised, is solvable for any values on the boundary",
-            self.labels()
+            "the problem of Dirichlet of {labels}, linearised, is solvable for any values on the boundary, as the model states"
         ))
+    }
+
+    /// Whether it is one linear equation a_ij u,ij = f with constants a_ij that are definite, so that there is one solution for any values on the
+    /// boundary (P. D. Lax, A. N. Milgram, 1954).
+    fn is_coercive(&self) -> bool {
+        let space = self.space();
+        let g = &space.graph;
+        let residuals: Vec<Expr> = self.residuals().collect();
+        let [e] = residuals[..] else {
+            return false;
+        };
+        let jets = space.jets_in(&[e]).into_iter();
+        let own: Vec<Jet> = jets.filter(|jet| self.is_about(jet)).collect();
+        let slopes: Vec<Expr> = own.iter().map(|jet| space.partial(e, jet)).collect();
+        let are_constant = space.jets_in(&slopes).is_empty() && !space.is_of_place(&slopes);
+        if self.components.len() != 1 || !are_constant || own.iter().any(|jet| jet.by.len() != 2) {
+            return false;
+        }
+        let dimensions = space.coordinates.len();
+        let entry = |i: usize, j: usize| {
+            let here = own.iter().zip(&slopes);
+            let mut here = here.filter(|(jet, _)| jet.by == [i.min(j), i.max(j)]);
+            let slope = here.next().map_or(g.zero(), |(_, &slope)| slope);
+            let part = if i == j { 1 } else { 2 };
+            g.div(slope, g.integer(part))
+        };
+        let minor = |size: usize, sign: i64| {
+            let row = |i: usize| {
+                (0..size)
+                    .map(|j| g.mul(&[g.integer(sign), entry(i, j)]))
+                    .collect()
+            };
+            determinant(g, &(0..size).map(row).collect::<Vec<Vec<Expr>>>())
+        };
+        [1, -1]
+            .into_iter()
+            .any(|sign| (1..=dimensions).all(|size| space.sign(minor(size, sign)).is_positive()))
     }
 
     /// Whether the principal symbol does not vanish in general, nor across plane pieces on which values are free or given, and is not seen to

@@ -58,6 +58,7 @@ const KEYS: &[&str] = &[
     "boundary",
     "equations",
     "imposed",
+    "solvable",
     "yields",
     "multipliers",
     "duality",

@@ -472,6 +472,9 @@ impl Reader<'_> {
         let yields = table.get("yields").map(|raw| self.texts(raw, "yields"));
         let (imposed, yields) = (imposed.unwrap_or_default(), yields.unwrap_or_default());
         self.said_once(&imposed, &yields);
+        let solvable = table.get("solvable").map(|raw| self.texts(raw, "solvable"));
+        let solvable = solvable.unwrap_or_default();
+        self.imposed_too(&solvable, &imposed);
         let section = self.section(table, "equations");
         let entries = section.map_or(&[][..], |own| &own.entries);
         for (key, raw) in entries {
@@ -480,13 +483,14 @@ impl Reader<'_> {
                 label if yields.iter().any(|text| text.content == *label) => Role::Yielded,
                 _ => Role::Other,
             };
-            let own = self.equation(table, scope, pieces, (key, raw), role);
-            if let Some(own) = &own {
+            let mut own = self.equation(table, scope, pieces, (key, raw), role);
+            if let Some(own) = &mut own {
+                own.is_solvable = solvable.iter().any(|text| text.content == own.label);
                 self.equation_lives(table, living, own, raw);
             }
             found.extend(own);
         }
-        for text in imposed.iter().chain(&yields) {
+        for text in imposed.iter().chain(&yields).chain(&solvable) {
             if entries.iter().all(|(key, _)| key.content != text.content) {
                 let message = format!("there is no equation `{}`", text.content);
                 self.push(
@@ -497,6 +501,19 @@ impl Reader<'_> {
         }
         self.multiplied(table, &imposed, entries);
         found
+    }
+
+    /// Only of an equation that is imposed it matters whether it is solvable.
+    fn imposed_too(&mut self, solvable: &[Text], imposed: &[Text]) {
+        for text in solvable {
+            if !imposed.iter().any(|own| own.content == text.content) {
+                let label = &text.content;
+                let message = format!("`{label}` stands under `solvable`, and is not imposed");
+                let hint = format!("add \"{label}\" to `imposed`, or take it out of `solvable`");
+                let own = Diagnostic::error("unused-solvable", text.place, message);
+                self.push(own.hint(hint));
+            }
+        }
     }
 
     /// A multiplier is that of an equation, and of one that is imposed.
@@ -597,6 +614,7 @@ impl Reader<'_> {
             on: on.map(|_| place_of(&names)),
             residuals,
             role,
+            is_solvable: false,
             multiplier,
             place: text.place,
         })

@@ -59,6 +59,14 @@ fn the_potential_energy_is_that_of_level_one_where_displacements_are_given() {
     ] {
         says("p1p", &text, PLANE, verdict);
     }
+    // A divergence more in the density is nothing of which the interior knows.
+    let (own, more) = (
+        "density = \"A(D) - F_k u_k\"",
+        "density = \"A(D) - F_k u_k + u_k,k\"",
+    );
+    assert!(text.contains(own), "{text}");
+    let verdict = ("functional.descent", "undecided", "by a divergence");
+    says("p1p", &text.replace(own, more), PLANE, verdict);
     // Given displacements yield nothing of the traction on S_u, and with another traction on S_s it is another body.
     let all = text.replace("\"4\", \"6\"]", "\"4\", \"6\", \"11\"]");
     let all = all + "[equations]\n11 = { equation = \"P_k = 0\", on = \"S_u\" }\n";

@@ -212,7 +212,7 @@ fn a_traction_that_is_imposed_to_vanish_gives_no_displacement() {
     for (yields, is_true) in rows {
         let text = text
             .replace(
-                "imposed = [\"2\", \"3\", \"4\"]",
+                "imposed = [\"2\", \"3\", \"4\"]\nsolvable = [\"4\"]",
                 "imposed = [\"2\", \"3\", \"10\"]",
             )
             .replace("yields = [\"5\", \"6\", \"7\"]", yields)

@@ -95,6 +95,21 @@ fn a_conjugate_point_is_inside_at_the_end_or_beyond() {
     }
 }
 
+/// Of ∫ (v'² − v²) dx a constant makes −1 on 0 < x < 1: the second variation as it is defined, and the variation.
+#[test]
+fn a_refutation_shows_its_variation() {
+    let Verdict::Refuted(found) = verdict("1/2 u,x^2 - 1/2 u^2", "1", [FREE, FREE]) else {
+        panic!("not refuted");
+    };
+    assert!(
+        found
+            .detail
+            .contains("as for the variation of u: 1, the second variation is -1.0"),
+        "{}",
+        found.detail
+    );
+}
+
 #[test]
 fn the_sign_of_the_leading_coefficient_is_that_of_the_whole_interval() {
     words(&[

@@ -82,6 +82,22 @@ fn coefficients_that_jump_inside_are_said() {
         (("0", "1"), "sign(x - 1/2) u,x + u,x^2/2", "u,xx = 0"),
         (("0", "1"), "abs(x - 1/2) u,xx + u^2/2", "u = 0"),
         (("0", "2"), "atan(tan(x)) u,x + u,x^2/2", "u,xx = -1"),
+        // The sign of cos 7x, which is zero at π/14, and its absolute value.
+        (
+            ("0", "1"),
+            "(2 + cos(7 x)/sqrt(cos(7 x)^2)) u,x^2/2",
+            "((2 + cos(7 x)/sqrt(cos(7 x)^2)) u,x),x = 0",
+        ),
+        (
+            ("0", "1"),
+            "(2 + sqrt(1 - sin(7 x)^2)) u,x^2/2",
+            "((2 + sqrt(1 - sin(7 x)^2)) u,x),x = 0",
+        ),
+        (
+            ("0", "1"),
+            "(4 + acos(cos(7 x))) u,x^2/2",
+            "((4 + acos(cos(7 x))) u,x),x = 0",
+        ),
     ] {
         let study = on_line(ends, density, equation, "x");
         assert_ne!(word(&study, "functional.euler"), "proved", "{density}");

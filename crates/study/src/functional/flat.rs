@@ -61,6 +61,9 @@ fn functional(text: &mut String, prefix: &str, own: &Functional) {
             &array(own.with_role(role).map(|e| quoted(&e.label))),
         );
     }
+    let solvable = own.equations.iter().filter(|e| e.is_solvable);
+    let solvable = array(solvable.map(|e| quoted(&e.label)));
+    line(text, "solvable", &solvable);
     line(
         text,
         "assumptions",

@@ -7,6 +7,7 @@ mod trial;
 
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Solution};
+use crate::polynomial::Polynomial;
 use crate::signs::{enclosure, on_interval, Sign};
 use crate::space::{Component, Space};
 use chetaev_symbolic::matrix::determinant;
@@ -32,7 +33,8 @@ impl Claim for SecondVariation {
 
     fn explanation(&self) -> &'static str {
         "For fields u(x) and a density L(x, u, u') with densities at the ends the second variation at a solution is \
-         ½ ∫ (v'ᵀ P v' + 2 v'ᵀ Q v + vᵀ R v) dx and vᵀ B v at the ends, with P, Q, R, B the second derivatives (I. M. Gelfand, S. V. Fomin, \
+         ∫ (v'ᵀ P v' + 2 v'ᵀ Q v + vᵀ R v) dx + Σ vᵀ B v over the ends, with P, Q, R, B the second derivatives: half of it is what the functional \
+         changes by to second order (I. M. Gelfand, S. V. Fomin, \
          Calculus of Variations, 1963, ch. 5). Where a field is given at an end, v vanishes there. Legendre's condition is that P is \
          positive: its sign on the whole interval is decided exactly for polynomials (Sturm), by enclosures for others. Jacobi's is that the \
          determinant of a conjoined basis of Jacobi's equations has no zero, a conjugate point, up to the right end; a free end \
@@ -148,7 +150,7 @@ fn verdict(form: &Form<'_>) -> Verdict {
     }
     // What refutes is cheap and exact: it comes before what follows the basis by small steps.
     if let Some(found) = negative(form, &places) {
-        return refuted(&found, followed(form, &places, NAMING));
+        return refuted(form, &found, followed(form, &places, NAMING));
     }
     let shown = followed(form, &places, FOLLOWING);
     if matches!(shown, Some(Shown::Positive)) {
@@ -240,7 +242,7 @@ fn legendre(form: &Form<'_>, places: &Places) -> Legendre {
     if is_positive {
         return Legendre::Holds;
     }
-    let negative = negative(form, places).map(|found| refuted(&found, None));
+    let negative = negative(form, places).map(|found| refuted(form, &found, None));
     Legendre::Open(Box::new(negative.unwrap_or_else(|| {
         if let Some(proof) = by_integrand(form, places) {
             return Verdict::Proved(proof);
@@ -381,7 +383,25 @@ fn negative(form: &Form<'_>, places: &Places) -> Option<Negative> {
     whole.or_else(|| trial::negative_on_part(form, &places.inner))
 }
 
-fn refuted(found: &Negative, shown: Option<Shown>) -> Verdict {
+/// Variations of more characters are not written out.
+const LONGEST: usize = 120;
+
+/// `u: x^2 - 2 x`, for several fields with their names, where it is short.
+fn written(form: &Form<'_>, variation: &[Polynomial]) -> String {
+    let space = &*form.functional.space;
+    let names = form.components.iter().map(|&c| space.component_at(c).name);
+    let each = names
+        .zip(variation)
+        .map(|(name, own)| format!("{name}: {}", space.graph.text(own.expr(space))));
+    let all = each.collect::<Vec<_>>().join(", ");
+    if all.chars().count() <= LONGEST {
+        format!(", as for the variation of {all},")
+    } else {
+        String::new()
+    }
+}
+
+fn refuted(form: &Form<'_>, found: &Negative, shown: Option<Shown>) -> Verdict {
     let [size, upper] = found.bounds.map(|value| decimal(value, 9));
     let why = match shown {
         Some(Shown::Conjugate(x)) => {
@@ -397,7 +417,8 @@ fn refuted(found: &Negative, shown: Option<Shown>) -> Verdict {
         None => "that are admitted".to_owned(),
     };
     let detail = format!(
-        "{why}for polynomials v {which} the second variation is {size}, by exact integration"
+        "{why}for polynomials v {which}{} the second variation is {size}, by exact integration",
+        written(form, &found.variation)
     );
     Verdict::Refuted(Counterexample {
         point: Vec::new(),

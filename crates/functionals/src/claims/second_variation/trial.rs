@@ -30,6 +30,8 @@ pub(super) struct Negative {
     pub bounds: [f64; 2],
     /// The part of the interval outside of which the variation is zero.
     pub part: Option<[Rational; 2]>,
+    /// The variation, a polynomial for each component.
+    pub variation: Vec<Polynomial>,
 }
 
 /// A variation: one polynomial for each component.
@@ -71,10 +73,11 @@ pub(super) fn negative_on_part(form: &Form<'_>, places: &[Rational; 2]) -> Optio
                 are_cut: [true, true],
                 ..Trial::new(form, &part)?
             };
-            let bounds = trial.negative(form, 0)?;
+            let (bounds, variation) = trial.negative(form, 0)?;
             Some(Negative {
                 bounds,
                 part: Some(part),
+                variation,
             })
         })
     })
@@ -85,8 +88,12 @@ pub(super) fn negative_on_part(form: &Form<'_>, places: &[Rational; 2]) -> Optio
 pub(super) fn negative(form: &Form<'_>, places: &[Rational; 2]) -> Option<Negative> {
     let trial = Trial::new(form, places)?;
     let mut degrees = DEGREES.into_iter();
-    let bounds = degrees.find_map(|degree| trial.negative(form, degree))?;
-    Some(Negative { bounds, part: None })
+    let (bounds, variation) = degrees.find_map(|degree| trial.negative(form, degree))?;
+    Some(Negative {
+        bounds,
+        part: None,
+        variation,
+    })
 }
 
 impl Trial {
@@ -116,8 +123,8 @@ impl Trial {
         })
     }
 
-    /// A negative value for polynomials of one degree.
-    fn negative(&self, form: &Form<'_>, degree: u32) -> Option<[f64; 2]> {
+    /// A negative value for polynomials of one degree, and these.
+    fn negative(&self, form: &Form<'_>, degree: u32) -> Option<([f64; 2], Variation)> {
         let base = self.base(form, degree);
         let matrix: Vec<Vec<Rational>> = base
             .iter()
@@ -130,7 +137,7 @@ impl Trial {
                 sum.add(part, coefficient);
             }
         }
-        self.enclosed(form, &v)
+        Some((self.enclosed(form, &v)?, v))
     }
 
     fn base(&self, form: &Form<'_>, degree: u32) -> Vec<Variation> {
