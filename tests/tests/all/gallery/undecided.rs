@@ -52,7 +52,7 @@ pub(super) const UNDECIDED: &[(&str, &str, &str)] = &[
     (
         "trailer/model.toml",
         "equilibrium.states",
-        "not solved within the work",
+        "nothing is said where a function of",
     ),
     // At rest Appell's constraint and that of constant speed have no gradient; masses that change are no state of rest; what is too large for a
     // quarter of a second is left to `chetaev steady`.
