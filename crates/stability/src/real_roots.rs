@@ -1,7 +1,7 @@
 //! Real zeros of functions of one parameter, enclosed: none is left out, and each interval holds exactly one.
 //!
 //! They are isolated by bisection with the mean value form ([`isolation`](crate::isolation)). Polynomials are split into square-free
-//! factors first, so that zeros are simple; a function with square roots vanishes where its [`norm`](crate::norm) does, if at all.
+//! factors first, so that zeros are simple; a function with square roots vanishes where its `norm` does, if at all.
 
 use crate::isolation::{isolated, Enclosed, Look, Root};
 use crate::norm::Norm;
