@@ -289,6 +289,18 @@ pub fn euler_with(space: &Space, density: Expr, held: Held<'_>, component: usize
     own.settled(space, euler_expression(space, whole, component))
 }
 
+/// Whether a density has no Euler expressions of these components: for them it is a divergence.
+pub(crate) fn is_divergence(
+    space: &Space,
+    density: Expr,
+    components: impl IntoIterator<Item = usize>,
+) -> bool {
+    components.into_iter().all(|component| {
+        let own = euler_expression(space, density, component);
+        space.graph.is_zero(own) || space.vanish(&[own])
+    })
+}
+
 /// `Σ (−D)^α ∂L/∂c_α`.
 pub fn euler_expression(space: &Space, density: Expr, component: usize) -> Expr {
     let g = &space.graph;

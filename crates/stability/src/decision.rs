@@ -5,7 +5,7 @@ use crate::about::{about, closed_form, About, Said, Statement, BITS, DIGITS};
 use crate::admissible_values::AdmissibleValues;
 use crate::characteristic::{LARGEST as VARIABLES, LARGEST_IN_NUMBERS};
 use crate::hurwitz::{Boundary, Crossing, Ranges};
-use crate::isolation::{without_power, Root};
+use crate::isolation::{joined, without_power, Root};
 use crate::parameter_values::{for_which, of_general};
 use crate::question::{bound_of, values_at, values_but, Place};
 use crate::real_roots::{decimal, overlap, zeros_of_factors, Zero, FINE, USUAL};
@@ -310,15 +310,7 @@ impl Pieces {
     ) -> Option<()> {
         let g = about.graph();
         cuts.extend(ranges.boundaries.iter().map(|b| b.root.clone()));
-        cuts.sort_by(|a, b| a.low.cmp(&b.low));
-        let mut roots: Vec<Root> = Vec::new();
-        for root in cuts {
-            match roots.last_mut().filter(|last| root.low <= last.high) {
-                Some(last) if root.high > last.high => last.high = root.high,
-                Some(_) => {}
-                None => roots.push(root),
-            }
-        }
+        let mut roots = joined(cuts);
         let low = -self.bound.clone();
         let lows = std::iter::once(&low).chain(roots.iter().map(|r| &r.high));
         let highs = roots.iter().map(|r| &r.low).chain([&self.bound]);

@@ -4,7 +4,7 @@
 //! one parameter the zeros of the determinants cut the range into intervals on each of which stability is the same; a boundary where the constant
 //! coefficient vanishes is passed by a real eigenvalue, one where Δ_{m−1} does by a pair (Orlando 1911).
 
-use crate::isolation::Root;
+use crate::isolation::{joined, Root};
 use crate::real_roots::{overlap, sign_at, zeros_of_factors, Zero, FINE, USUAL};
 use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
@@ -242,7 +242,7 @@ pub(crate) fn ranges_within(
     let mut regions: Vec<Region> = Vec::new();
     let domain = Domain::of(g, &lists.concat(), symbol);
     let roots = boundaries.iter().map(|own| own.root.clone());
-    let cuts = cuts(roots.chain(domain.ends(&range)?));
+    let cuts = joined(roots.chain(domain.ends(&range)?));
     let lows = std::iter::once(low).chain(cuts.iter().map(|root| &root.high));
     let highs = cuts.iter().map(|root| &root.low).chain([high]);
     for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
@@ -298,20 +298,6 @@ impl Domain {
         let all: Option<Vec<bool>> = self.conditions.iter().map(holds).collect();
         Some(all?.into_iter().all(|own| own))
     }
-}
-
-/// Intervals in order, those that overlap as one.
-fn cuts(roots: impl Iterator<Item = Root>) -> Vec<Root> {
-    let mut all: Vec<Root> = roots.collect();
-    all.sort_by(|a, b| a.low.cmp(&b.low));
-    let mut found: Vec<Root> = Vec::new();
-    for own in all {
-        match found.last_mut() {
-            Some(last) if own.low <= last.high => last.high = own.high.max(last.high.clone()),
-            _ => found.push(own),
-        }
-    }
-    found
 }
 
 /// Boundaries, each with the zero that it is.

@@ -20,6 +20,20 @@ pub struct Root {
     pub high: RBig,
 }
 
+/// Enclosures in order, those that overlap as one.
+pub(crate) fn joined(roots: impl IntoIterator<Item = Root>) -> Vec<Root> {
+    let mut all: Vec<Root> = roots.into_iter().collect();
+    all.sort_by(|a, b| a.low.cmp(&b.low));
+    let mut found: Vec<Root> = Vec::new();
+    for own in all {
+        match found.last_mut() {
+            Some(last) if own.low <= last.high => last.high = own.high.max(last.high.clone()),
+            _ => found.push(own),
+        }
+    }
+    found
+}
+
 impl Root {
     /// Decimal bounds with 20 digits, rounded outwards.
     pub fn decimal_bounds(&self) -> (String, String) {

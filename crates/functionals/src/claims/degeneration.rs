@@ -5,8 +5,7 @@ use super::special_values::{instance, put_in, unfit};
 use super::variations::Variations;
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Relation, Role, Special};
-use crate::space::Space;
-use crate::variation::euler_expression;
+use crate::variation::is_divergence;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 use std::collections::BTreeSet;
@@ -138,8 +137,15 @@ impl Comparison<'_> {
                     notes.extend(note.map(|note| format!("{place} {note}")));
                 }
                 Err(verdict) => {
+                    let of_all = || {
+                        space
+                            .jets_in(&[difference])
+                            .into_iter()
+                            .map(|jet| jet.component)
+                            .collect::<BTreeSet<_>>()
+                    };
                     let verdict = match *verdict {
-                        Verdict::Refuted(_) if on.is_none() && has_no_equations(space, difference) => {
+                        Verdict::Refuted(_) if on.is_none() && is_divergence(space, difference, of_all()) => {
                             Verdict::undecided("by a divergence, and what that leaves on the boundary was not compared")
                         }
                         other => other,
@@ -209,13 +215,4 @@ impl Comparison<'_> {
             other => other,
         }
     }
-}
-
-/// Whether the Euler expressions of a density vanish for all fields in it: it is a divergence.
-fn has_no_equations(space: &Space, density: Expr) -> bool {
-    let jets = space.jets_in(&[density]);
-    let components: BTreeSet<usize> = jets.iter().map(|jet| jet.component).collect();
-    let own = components.into_iter();
-    let all: Vec<Expr> = own.map(|c| euler_expression(space, density, c)).collect();
-    space.vanish(&all)
 }

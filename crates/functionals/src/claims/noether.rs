@@ -5,7 +5,7 @@ use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Functional, Role};
 use crate::space::{not_sought, Jet, Space};
-use crate::variation::{euler_expression, flux, Form, Variation};
+use crate::variation::{euler_expression, flux, is_divergence, Form, Variation};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{rational, simplify, Expr, Rational, Verdict};
 use std::collections::BTreeMap;
@@ -690,7 +690,7 @@ fn on_solutions(
             detail: format!("the defect of {words} vanishes where the Euler equations hold"),
             ..proof
         }),
-        _ if is_divergence(functional, variation, current.defect) => Verdict::Proved(Proof::exact(
+        _ if has_no_equations(functional, variation, current.defect) => Verdict::Proved(Proof::exact(
             "all solutions",
             format!("the defect of {words} is itself a divergence, as its Euler expressions vanish: the current without it has none"),
         )),
@@ -702,14 +702,10 @@ fn on_solutions(
 }
 
 /// Whether an expression is a divergence, whatever the fields are.
-fn is_divergence(functional: &Functional, variation: &Variation, e: Expr) -> bool {
+fn has_no_equations(functional: &Functional, variation: &Variation, e: Expr) -> bool {
     let space = &*functional.space;
-    let e = space.explicit(e);
-    let mut varied = variation.euler.iter().map(|(component, _)| *component);
-    varied.all(|component| {
-        let own = euler_expression(space, e, component);
-        space.graph.is_zero(own) || space.vanish(&[own])
-    })
+    let varied = variation.euler.iter().map(|(component, _)| *component);
+    is_divergence(space, space.explicit(e), varied)
 }
 
 /// Longer formulas are left to programs.

@@ -3,7 +3,7 @@
 //! A function applied to arguments is a symbol of the graph with derivatives of its own. Applications are known by function, slots
 //! of differentiation and arguments, so that one symbol never means two things.
 
-use super::kept::Asked;
+use super::cache::Asked;
 use super::{pairs, Space};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
@@ -77,7 +77,7 @@ impl Space {
         let mut all = self.functions.borrow_mut();
         all[one].conjugate = Some(other);
         all[other].conjugate = Some(one);
-        self.kept.clear();
+        self.cache.clear();
     }
 
     /// Place-holders for the argument of a function.
@@ -94,7 +94,7 @@ impl Space {
         self.gradients
             .borrow_mut()
             .insert(function, Rule { slots, values });
-        self.kept.clear();
+        self.cache.clear();
     }
 
     /// States the value of a function, in its place-holders.
@@ -106,7 +106,7 @@ impl Space {
             .insert(function, Rule { slots, values });
         self.conjugations.borrow_mut().clear();
         self.known.borrow_mut().clear();
-        self.kept.clear();
+        self.cache.clear();
     }
 
     /// Keeps the determinant of the gradient of a function that is linear.
@@ -135,7 +135,7 @@ impl Space {
         }
         let open = Verdict::undecided("the functions are stated by each other");
         self.conjugations.borrow_mut().insert(pair, Some(open));
-        let decided = self.kept.while_open(decide);
+        let decided = self.cache.while_open(decide);
         self.conjugations.borrow_mut().insert(pair, decided.clone());
         decided
     }
@@ -211,7 +211,7 @@ impl Space {
         if !self.sought.borrow_mut().insert(application.clone()) {
             return self.intern(&application);
         }
-        let value = self.kept.while_open(|| {
+        let value = self.cache.while_open(|| {
             self.conjugated(&application)
                 .or_else(|| self.by_gradient(&application))
                 .unwrap_or_else(|| self.intern(&application))

@@ -8,12 +8,12 @@
 //! too, which is differentiated by the chain rule through its own derivatives; a function and its Legendre conjugate undo each
 //! other wherever one is applied to the gradient of the other. Both are exact, so that what is proved holds for every energy.
 
+mod cache;
 mod constitution;
-mod kept;
 mod zero;
 
+use cache::{Asked, Cache};
 pub use constitution::Function;
-use kept::{Asked, Kept};
 pub(crate) use zero::not_sought;
 
 use chetaev_symbolic::zero::assumptions::Assumptions;
@@ -99,7 +99,7 @@ pub struct Space {
     /// Whether an expression has a jet with a coefficient without jets.
     linear: RefCell<FxHashMap<Expr, bool>>,
     /// Derivatives and formulas that were asked for.
-    kept: Kept,
+    cache: Cache,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -160,7 +160,7 @@ impl Space {
             vanishing: RefCell::default(),
             symbols: RefCell::default(),
             linear: RefCell::default(),
-            kept: Kept::default(),
+            cache: Cache::default(),
             arguments: RefCell::default(),
             display: RefCell::default(),
         }

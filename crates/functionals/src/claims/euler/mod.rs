@@ -46,7 +46,8 @@ impl Claim for Euler {
          regular. Where a coefficient of the densities jumps or has a kink inside the body, conditions hold that are not derived, and the claim \
          is not applicable. Equations with a stated multiplier are added to the density with it before the variation. Others that are imposed inside leave \
          variations whose values on the boundary have to be arbitrary, else the natural conditions hold only taken together, and are not compared one by \
-         one: that is decided on a line where the variations are polynomials, and else by what a problem of Dirichlet needs. A refutation shows a \
+         one: that is decided on a line where the variations are polynomials, and for one definite equation (Lax and Milgram 1954), and is stated by the model elsewhere, \
+         as `solvable`. A refutation shows a \
          jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution (each equation of the body has \
          data of its own, or these are linear and each condition on the boundary has); else polynomials \
          that satisfy one system in the body and on its boundary, and not the other. Where there are none the claim is undecided, as conditions at \

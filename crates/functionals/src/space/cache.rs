@@ -18,13 +18,13 @@ pub(super) enum Asked {
 
 /// What is known of expressions, as long as nothing else is stated of functions.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
+pub(super) struct Cache {
     found: RefCell<FxHashMap<Asked, Expr>>,
     /// Questions about functions that are being decided: what is found meanwhile takes their functions for unknown.
     open: Cell<usize>,
 }
 
-impl Kept {
+impl Cache {
     /// Forgets everything, as more is stated of functions.
     pub(super) fn clear(&self) {
         self.found.borrow_mut().clear();
@@ -38,7 +38,7 @@ impl Kept {
 }
 
 /// A question that is open until this is dropped, also where a budget ends it.
-struct Opened<'k>(&'k Cell<usize>);
+struct Opened<'c>(&'c Cell<usize>);
 
 impl Opened<'_> {
     fn new(count: &Cell<usize>) -> Opened<'_> {
@@ -56,14 +56,14 @@ impl Drop for Opened<'_> {
 impl Space {
     /// What `compute` finds, computed once.
     pub(super) fn once(&self, asked: Asked, compute: impl FnOnce() -> Expr) -> Expr {
-        if self.kept.open.get() > 0 {
+        if self.cache.open.get() > 0 {
             return compute();
         }
-        if let Some(&known) = self.kept.found.borrow().get(&asked) {
+        if let Some(&known) = self.cache.found.borrow().get(&asked) {
             return known;
         }
         let found = compute();
-        self.kept.found.borrow_mut().insert(asked, found);
+        self.cache.found.borrow_mut().insert(asked, found);
         found
     }
 }
