@@ -220,6 +220,38 @@ impl Polynomial {
         by.iter().fold(self.clone(), |own, &axis| own.slope(axis))
     }
 
+    /// Numbers between which it lies on a box, the sums of those of its terms; `None` where a variable in it has no interval.
+    pub fn bounds(
+        &self,
+        intervals: &[(usize, Rational, Rational)],
+    ) -> Option<(Rational, Rational)> {
+        let mut sums = (Rational::ZERO, Rational::ZERO);
+        for (exponents, value) in &self.0 {
+            let mut own = (value.clone(), value.clone());
+            for (axis, &n) in exponents.iter().enumerate().filter(|(_, n)| **n > 0) {
+                let (_, lower, upper) = intervals.iter().find(|(own, _, _)| *own == axis)?;
+                let n = i64::from(n);
+                let mut ends = vec![rational::powi(lower, n)?, rational::powi(upper, n)?];
+                if n % 2 == 0 && *lower < Rational::ZERO && *upper > Rational::ZERO {
+                    ends.push(Rational::ZERO);
+                }
+                let products = ends
+                    .iter()
+                    .flat_map(|end| [&own.0, &own.1].map(|factor| rational::product(factor, end)));
+                let products: Vec<Rational> = products.collect();
+                own = (
+                    products.iter().min()?.clone(),
+                    products.iter().max()?.clone(),
+                );
+            }
+            sums = (
+                rational::sum(&sums.0, &own.0),
+                rational::sum(&sums.1, &own.1),
+            );
+        }
+        Some(sums)
+    }
+
     /// The integral over a box or a face; variables that do not run are zero.
     pub fn integral(&self, domain: &Domain) -> Rational {
         meter::spend(STEP * (self.0.len() * (1 + domain.intervals.len())) as u64);

@@ -6,6 +6,7 @@
 use crate::elimination::factors_of;
 use crate::functional::{Functional, Interval};
 use crate::notation::denominators;
+use crate::polynomial::Polynomial;
 use crate::signs::{enclosure, on_interval, Sign};
 use crate::space::Space;
 use chetaev_symbolic::simplify::{simplify, Options};
@@ -131,6 +132,23 @@ impl<'s> Region<'s> {
         }
         self.decided_by_signs(e, relation)
             .or_else(|| self.holds_at_corners(e, relation).then_some(true))
+            .or_else(|| self.holds_by_terms(e, relation).then_some(true))
+    }
+
+    /// Whether a polynomial on a box with numbers for its ends is kept away from zero by the bounds of its terms.
+    fn holds_by_terms(&self, e: Expr, relation: Relation) -> bool {
+        let number = |e: Expr| self.space.graph.as_number(e).cloned();
+        let own = self.intervals.iter();
+        let own = own.map(|own| Some((own.axis, number(own.lower)?, number(own.upper)?)));
+        let Some(intervals) = own.collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        let polynomial = Polynomial::of(self.space, e);
+        let bounds = polynomial.and_then(|own| own.bounds(&intervals));
+        bounds.is_some_and(|(lower, upper)| {
+            let is_below = relation == Relation::NotEqual && upper < Rational::ZERO;
+            lower > Rational::ZERO || is_below
+        })
     }
 
     /// What the signs on an interval say; zeros at its ends belong to a closed region alone.
@@ -271,7 +289,7 @@ impl<'s> Region<'s> {
 }
 
 /// What holds on the boundary of where a comparison holds, too.
-fn with_equality(relation: Relation) -> Relation {
+pub(crate) fn with_equality(relation: Relation) -> Relation {
     match relation {
         Relation::Less => Relation::LessOrEqual,
         Relation::Greater => Relation::GreaterOrEqual,

@@ -14,6 +14,7 @@ mod modulo;
 mod multipliers;
 pub mod noether;
 mod on_box;
+mod potential;
 pub mod reduction;
 pub(crate) mod ritz;
 mod second_variation;
@@ -203,6 +204,25 @@ pub(crate) fn decided(claim: &dyn Claim, cx: &Context<'_>, subject: Option<&str>
     Finding { verdict, formulas }
 }
 
+fn broken(why: &str) -> String {
+    format!(
+        "the density is not smooth in the body, where {why} does not hold everywhere: at such places conditions hold that are not derived"
+    )
+}
+
+fn undecided(why: &str) -> String {
+    format!("whether the density is smooth in the body was not decided: {why} would have to hold everywhere in it")
+}
+
+/// What is to be said of equations that are derived from densities with these coefficients, where these are not known to be smooth.
+fn on_smoothness(coefficients: &Coefficients) -> Option<String> {
+    match coefficients {
+        Coefficients::Broken(why) => Some(broken(why)),
+        Coefficients::Undecided(why) => Some(undecided(why)),
+        Coefficients::Smooth(_) => None,
+    }
+}
+
 /// A proof by differentiation holds where the coefficients of the densities are smooth; with a jump or a kink inside the body it is none.
 fn where_smooth(coefficients: &Coefficients, verdict: Verdict) -> Verdict {
     match (coefficients, verdict) {
@@ -210,15 +230,13 @@ fn where_smooth(coefficients: &Coefficients, verdict: Verdict) -> Verdict {
             Verdict::not_applicable(
                 "smooth densities",
                 format!(
-                    "the density is not smooth in the body, where {why} does not hold everywhere: at such places conditions hold that \
-                     are not derived. One model for each part of the body says what holds in it"
+                    "{}. One model for each part of the body says what holds in it",
+                    broken(why)
                 ),
             )
         }
         (Coefficients::Undecided(why), Verdict::Proved(_) | Verdict::Conditional { .. }) => {
-            Verdict::undecided(format!(
-                "whether the density is smooth in the body was not decided: {why} would have to hold everywhere in it"
-            ))
+            Verdict::undecided(undecided(why))
         }
         (Coefficients::Smooth(open), Verdict::Proved(mut proof)) if !open.is_empty() => {
             let own = open.iter().map(String::as_str);

@@ -1,5 +1,6 @@
 //! `functional.noether`: symmetries of a functional and the currents without divergence that they give.
 
+use super::potential::with_divergence;
 use super::reduction::restricted;
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
@@ -29,7 +30,8 @@ impl Claim for Noether {
          the defect S is the change of the density under the symmetry; then S is looked at where the Euler equations hold. In elasticity the \
          integrals of the currents over closed surfaces are J (translations: the body is homogeneous and no force acts on it), L (rotations: it is \
          isotropic as well) and M (scalings: the energy is homogeneous in the gradient; the exponent by which the fields are scaled follows \
-         from its degree). Where a hypothesis fails the claim is refuted, and the defect is shown. Data are not moved by the symmetry. \
+         from its degree). Where S is the divergence of a K, whatever the fields are, the density is changed by that alone, and the current that is shown \
+         is C − K. Where a hypothesis fails the claim is refuted, and the defect is shown. Data are not moved by the symmetry. \
          `symmetries` in the model says what is asked."
     }
 
@@ -639,7 +641,12 @@ fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Fi
         ))
         .into();
     }
-    let verdict = on_solutions(functional, variation, &current, &format!("{words}{scaled}"));
+    let words = format!("{words}{scaled}");
+    let verdict = on_solutions(functional, variation, &current, &words);
+    let is_open = !matches!(verdict, Verdict::Proved(_));
+    if is_open && has_no_equations(functional, variation, current.defect) {
+        return up_to_divergence(functional, current, &words);
+    }
     let verdict = match (verdict, open) {
         (Verdict::Refuted(_), Some(function)) => Verdict::undecided(not_sought(&function)),
         (verdict, _) => verdict,
@@ -649,6 +656,44 @@ fn decided(functional: &Functional, variation: &Variation, own: Generator) -> Fi
         formulas: formulas(functional, &current),
     }
 }
+
+/// A symmetry whose defect is the divergence of a K, whatever the fields are: the current without K has none for solutions.
+fn up_to_divergence(functional: &Functional, current: Current, words: &str) -> Finding {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let varied: Vec<usize> = current.characteristics.keys().copied().collect();
+    let Some(added) = with_divergence(space, current.defect, &varied) else {
+        return Finding {
+            verdict: Verdict::undecided(format!(
+                "the defect of {words} is a divergence, as its Euler expressions vanish, but of what was not found, so that no current without divergence is \
+                 known"
+            )),
+            formulas: formulas(functional, &current),
+        };
+    };
+    let pairs = current.flux.iter().zip(&added);
+    let conserved = Current {
+        flux: pairs.map(|(&own, &added)| g.sub(own, added)).collect(),
+        defect: g.zero(),
+        characteristics: current.characteristics,
+    };
+    let mut formulas = formulas(functional, &conserved);
+    let along = space.coordinates.iter().zip(added);
+    formulas.extend(along.filter_map(|(coordinate, e)| {
+        shown(functional, format!("{ADDED} along {}", coordinate.name), e)
+    }));
+    let detail = format!(
+        "{words} leaves the density as it is up to the divergence of a K, which is shown, and the divergence of the current without K, which is the one shown, \
+         is Σ E Q, which vanishes for solutions"
+    );
+    Finding {
+        verdict: Verdict::Proved(Proof::exact("all solutions", detail)),
+        formulas,
+    }
+}
+
+/// What is left out of Noether's current so that its divergence vanishes.
+const ADDED: &str = "K, whose divergence is the change of the density,";
 
 fn on_solutions(
     functional: &Functional,
@@ -690,10 +735,6 @@ fn on_solutions(
             detail: format!("the defect of {words} vanishes where the Euler equations hold"),
             ..proof
         }),
-        _ if has_no_equations(functional, variation, current.defect) => Verdict::Proved(Proof::exact(
-            "all solutions",
-            format!("the defect of {words} is itself a divergence, as its Euler expressions vanish: the current without it has none"),
-        )),
         Verdict::Refuted(found) => Verdict::Refuted(found).prefixed(&format!(
             "the current of {words} has a divergence, the defect shown"
         )),
@@ -713,25 +754,26 @@ const LONGEST: u64 = 1_500;
 
 fn formulas(functional: &Functional, current: &Current) -> Vec<Formula> {
     let space = &*functional.space;
-    let g = &space.graph;
-    let mut found = Vec::new();
-    let mut show = |caption: String, e: Expr| {
-        if g.is_zero(e) || simplify::length(g, e) > LONGEST {
-            return;
-        }
-        let value = simplify::simplify(g, e, &simplify::Options::default());
-        found.push(Formula::new(caption, value));
-    };
-    for (coordinate, &e) in space.coordinates.iter().zip(&current.flux) {
-        show(format!("the current along {}", coordinate.name), e);
+    let along = space.coordinates.iter().zip(&current.flux);
+    let along = along.map(|(own, &e)| (format!("the current along {}", own.name), e));
+    let has_defect = !space.vanish(&[current.defect]);
+    let defect = has_defect.then(|| {
+        let caption = "the defect: the divergence of the current for solutions";
+        (caption.to_owned(), current.defect)
+    });
+    let all = along.chain(defect);
+    all.filter_map(|(caption, e)| shown(functional, caption, e))
+        .collect()
+}
+
+/// A formula, where it is not zero and not too long to be shown.
+fn shown(functional: &Functional, caption: String, e: Expr) -> Option<Formula> {
+    let g = &functional.space.graph;
+    if g.is_zero(e) || simplify::length(g, e) > LONGEST {
+        return None;
     }
-    if !space.vanish(&[current.defect]) {
-        show(
-            "the defect: the divergence of the current for solutions".into(),
-            current.defect,
-        );
-    }
-    found
+    let value = simplify::simplify(g, e, &simplify::Options::default());
+    Some(Formula::new(caption, value))
 }
 
 #[cfg(test)]

@@ -553,11 +553,24 @@ impl<'s> Solved<'s> {
             format!("`{}`", group.label)
         };
         match texts.collect::<Vec<_>>().as_slice() {
-            [text] if text.len() <= LONGEST_NAMED => {
+            [text] if text.len() <= LONGEST_NAMED && !self.divides_by_zero(&group.equations) => {
                 format!("{label}, of which {text} = 0 is left,")
             }
             _ => label,
         }
+    }
+
+    /// Whether something is divided by zero: what was solved for does not go with what it is put into.
+    fn divides_by_zero(&self, es: &[Expr]) -> bool {
+        let g = &self.space.graph;
+        let mut all = g.reachable(es).into_iter();
+        all.any(|e| match g.node(e) {
+            Node::Power { base, exponent } => {
+                let is_negative = g.as_number(*exponent).is_some_and(rational::is_negative);
+                g.is_zero(*base) && is_negative
+            }
+            _ => false,
+        })
     }
 
     /// A verdict, but that nothing is refuted while an equation is left that could not be solved.

@@ -351,6 +351,8 @@ fn mismatch(span: Span, own: &[char], wanted: &[char]) -> Diagnostic {
         .collect();
     match (&extra[..], &missing[..]) {
         ([one], [other]) => diagnostic.hint(format!("did you mean `{other}` in place of `{one}`?")),
+        (['n'], []) => diagnostic
+            .hint("an index n is one like the others: the derivative along the normal n of a field w is `n_i w,i`"),
         _ => diagnostic.hint("free indices are the same in all terms and on both sides"),
     }
 }

@@ -224,3 +224,32 @@ fn what_is_divided_by_is_named_also_where_it_cancels() {
     assert!(!euler("1/2 u,x^2 - f u", "").contains('≠'));
     assert!(euler("1/2 u,x^2 - f u^2/u", "").contains("u != 0"));
 }
+
+/// atan(tan u') is u' between its jumps, where u' is an odd multiple of π/2; asin and acosh have derivatives inside of where they are defined alone.
+#[test]
+fn poles_and_ends_of_functions_are_said() {
+    for (density, stated, said) in [
+        ("atan(tan(u,x)) + u,x^2/2", "u,xx + q = 0", "cos(u,x) != 0"),
+        (
+            "atan(1/cot(u,x)) + u,x^2/2",
+            "u,xx + q = 0",
+            "sin(u,x) != 0",
+        ),
+        ("u,x^2/2", "u,xx + q + 0 acosh(u) = 0", ""),
+        (
+            "u,x^2/2 + sin(asin(u,x)) + asin(u,x) + acos(u,x)",
+            "u,xx + q = 0",
+            "1 - u,x^2 > 0",
+        ),
+    ] {
+        let text = format!(
+            "kind = \"functional\"\nname = \"own\"\ndensity = \"{density} - q u\"\nyields = [\"e\"]\n[domain]\n\
+             coordinates = [\"x\"]\nintervals = {{ x = [0, 1] }}\n[fields]\nu = \"scalar\"\n[data]\nq = \"scalar\"\n[boundary]\n\
+             \"x = 0\" = {{ fixed = [\"u\"] }}\n\"x = 1\" = {{ fixed = [\"u\"] }}\n[equations]\ne = \"{stated}\"\n"
+        );
+        let study = studied_text("p4p", &text, &[]);
+        let own = decided(&study, "functional.euler");
+        assert_eq!(own.word(), "proved", "{density}: {}", own.detail());
+        assert!(own.detail().contains(said), "{density}: {}", own.detail());
+    }
+}

@@ -184,3 +184,13 @@ fn a_digit_and_a_letter_are_two_indices_of_a_derivative() {
     let study = studied_text("p4p", &model("1/2 w,1j w,1j", "w,iijj = 0"), &[]);
     assert_ne!(decided(&study, "functional.euler").word(), "proved");
 }
+
+/// `w,n` is a derivative by a letter, not the one along the normal.
+#[test]
+fn a_derivative_along_the_normal_is_written_with_the_normal() {
+    let text = "kind = \"functional\"\nname = \"m\"\ndensity = \"w,i w,i\"\n[sizes]\nd = 2\n[domain]\ncoordinates = \"x_i\"\nboundary = [\"S\"]\n\
+        [fields]\nw = \"scalar\"\n[boundary]\nS = \"w,n\"\n";
+    let loaded = crate::table::read_text("p4p", text, &[]);
+    let said = loaded.diagnostics.render(chetaev_model::Style::Plain);
+    assert!(said.contains("`n_i w,i`"), "{said}");
+}

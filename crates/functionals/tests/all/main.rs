@@ -38,6 +38,7 @@ mod table;
 mod traces;
 mod values;
 mod wholes;
+mod witnesses;
 
 #[path = "../../../../tests/src/extent.rs"]
 #[allow(

@@ -1,6 +1,7 @@
 //! Functionals with one mistake are refuted, and mistakes in the text are shown at their place with what to do.
 
-use crate::table::{decided, read_text, row_text, studied_text, ROWS};
+use crate::table::{decided, loaded_text, read_text, row_text, studied_text, ROWS};
+use chetaev_functionals::study;
 use chetaev_model::Style;
 
 /// The verdict on a row after a replacement in its text; tractions have values on the whole boundary.
@@ -381,4 +382,34 @@ fn wrong_conditions_of_a_free_plate_are_refuted() {
         let verdict = crate::table::decided(&study, "functional.euler");
         assert_eq!(verdict.word(), "refuted", "{wrong}: {}", verdict.detail());
     }
+}
+
+/// What restricts the variations without a multiplier leaves a refutation by fields and by an admitted variation.
+#[test]
+fn a_mistake_where_equilibrium_is_imposed_is_refuted() {
+    let mut open = Vec::new();
+    for (row, from, to) in [
+        ("p0p", "A(D) - F_k u_k", "A(D) + F_k u_k"),
+        ("pp", "A(D) - F_k u_k", "A(D) + F_k u_k"),
+        ("p0p", "A(D) - F_k u_k", "A(D) - 2 F_k u_k"),
+        ("pp", "A(D) - F_k u_k", "A(D) - 2 F_k u_k"),
+        ("p0p", "S_s = \"-Pbar_k u_k\"", "S_s = \"-P_k u_k\""),
+        ("pp", "S_s = \"-Pbar_k u_k\"", "S_s = \"-P_k u_k\""),
+    ] {
+        let text = row_text(row);
+        assert!(text.contains(from), "{row} has no `{from}`");
+        for d in ["1", "2", "3"] {
+            for nonlinear in ["0", "1"] {
+                let set = [("d", d), ("nonlinear", nonlinear)];
+                let problem = loaded_text(row, &text.replace(from, to), &set);
+                let study = study(problem, &|id| id == "functional.euler", &|| 0.0);
+                let own = decided(&study, "functional.euler");
+                if own.word() != "refuted" {
+                    let detail = own.detail();
+                    open.push(format!("{row} with `{to}`, {set:?}: {detail}"));
+                }
+            }
+        }
+    }
+    assert!(open.is_empty(), "{}", open.join("\n"));
 }

@@ -414,3 +414,77 @@ fn a_coefficient_that_is_given_is_no_obstacle() {
     let words: Vec<&str> = own.map(|d| d.finding.verdict.word()).collect();
     assert_eq!(words, ["refuted"; 3]);
 }
+
+/// With the density ½ u,x² + ½ u,y² + x u,y, whose last term changes by u,y = (u),y as x moves, Noether's current along x has the divergence u,y
+/// for solutions of u,xx + u,yy = 0: the one that is shown has none.
+#[test]
+fn a_current_that_is_shown_of_a_symmetry_up_to_a_divergence_is_conserved() {
+    let model = |density: &str, time: &str| {
+        format!(
+            "kind = \"functional\"\nname = \"n\"\ndensity = \"{density}\"\nsymmetries = [\"translations\", \"rotations\", \"scaling\"]\n[domain]\n\
+             coordinates = [\"x\", \"y\"]\n{time}boundary = [\"S\"]\n[fields]\nu = \"scalar\"\n[boundary]\nS = \"0\"\n"
+        )
+    };
+    let plane = ["translation-x", "translation-y", "rotation-x-y", "scaling"];
+    let wave = ["translation-x", "translation-t", "rotation-x-y"];
+    for (density, time, symmetries) in [
+        ("1/2 u,x^2 + 1/2 u,y^2 + x u,y", "", &plane[..]),
+        ("1/2 u,x^2 + 1/2 u,y^2 + x u^2 u,y + x", "", &plane[..3]),
+        (
+            "1/2 u,t^2 - 1/2 u,x^2 - 1/2 u,y^2 + t u u,x + x u u,t",
+            "time = \"t\"\n",
+            &wave[..2],
+        ),
+    ] {
+        let problem = loaded_text("p4p", &model(density, time), &[]);
+        let study = study(problem, &|id| id == "functional.noether", &|| 0.0);
+        let functional = &study.problem.functional;
+        let space = &*functional.space;
+        let g = &space.graph;
+        let euler = variation(functional).unwrap().euler;
+        let u = space.component_named("u").unwrap();
+        for symmetry in symmetries {
+            let own = study.verdicts.iter();
+            let mut own = own.filter(|d| d.subject.as_deref() == Some(symmetry));
+            let finding = &own.next().unwrap().finding;
+            let detail = finding.verdict.detail();
+            assert_eq!(
+                finding.verdict.word(),
+                "proved",
+                "{density}, {symmetry}: {detail}"
+            );
+            let axes = space.coordinates.iter().enumerate();
+            let terms = axes.filter_map(|(axis, c)| {
+                let caption = format!("the current along {}", c.name);
+                let along = finding.formulas.iter().find(|f| f.caption == caption)?;
+                Some(space.total(along.value, axis))
+            });
+            let divergence = g.add(&terms.collect::<Vec<_>>());
+            // Solutions: u,xx is what its Euler equation says.
+            let xx = space.jet(u, &[0, 0]);
+            let rest = space.put(euler[0].1, &[(xx, g.zero())]);
+            let slope = g.sub(space.put(euler[0].1, &[(xx, g.one())]), rest);
+            let on_solutions = space.put(divergence, &[(xx, g.neg(g.div(rest, slope)))]);
+            assert!(
+                space.vanish(&[on_solutions]),
+                "{density}, {symmetry}: {}",
+                g.text(on_solutions)
+            );
+        }
+    }
+    // Of a function that is no polynomial no such K is found.
+    let (word, detail, _) = verdict(
+        &model("1/2 u,x^2 + 1/2 u,y^2 + x cos(u) u,y", ""),
+        "translation-x",
+    );
+    assert_eq!(word, "undecided", "{detail}");
+    let (_, detail, formulas) =
+        verdict(&model("1/2 u,x^2 + 1/2 u,y^2 + x u,y", ""), "translation-x");
+    assert!(detail.contains("up to the divergence of a K"), "{detail}");
+    assert!(
+        formulas
+            .iter()
+            .any(|f| f.starts_with("K, ") && f.ends_with("along y: u")),
+        "{formulas:?}"
+    );
+}

@@ -264,3 +264,24 @@ fn a_field_of_a_face_is_differentiated_along_it() {
     let said = told("1/2 v,x^2 + 1/2 (u - v)^2");
     assert!(!said.contains("error"), "{said}");
 }
+
+/// On y = 3, z = 0 the condition 3 = 0 holds for no field, whatever else could be solved; and nothing that is printed is divided by zero.
+#[test]
+fn an_edge_on_which_nothing_can_hold_leaves_no_field() {
+    let text = include_str!("edges.toml");
+    let study = crate::table::studied_text("p4p", text, &[]);
+    let own = crate::table::decided(&study, "functional.euler");
+    assert_eq!(own.word(), "not-applicable", "{}", own.detail());
+    assert!(own.detail().contains("no field"), "{}", own.detail());
+    let open = text
+        .replace("- 3*lam,z\"", "\"")
+        .replace("\"3 = 0\"", "\"0 = 0\"");
+    let open = open.replace("lam,t/3 - 3 = 0", "lam,t/3 = 0");
+    let study = crate::table::studied_text("p4p", &open, &[]);
+    let detail = crate::table::decided(&study, "functional.euler").detail();
+    assert!(!detail.contains("1/0"), "{detail}");
+    assert!(
+        detail.matches("integrability of lam").count() < 2,
+        "{detail}"
+    );
+}

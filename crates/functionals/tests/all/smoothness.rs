@@ -209,3 +209,17 @@ fn keys_and_names_that_mean_nothing_are_told() {
         assert!(said.contains(wanted), "{said}");
     }
 }
+
+/// Without equations that are stated the Euler equations are only printed, and it is said where they are not all.
+#[test]
+fn equations_that_are_only_printed_are_printed_with_what_is_missing() {
+    let text = "kind = \"functional\"\nname = \"s\"\ndensity = \"u,x^2/(x - 1/2)\"\n[domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n\
+        [fields]\nu = \"scalar\"\n[boundary]\n\"x = 0\" = { fixed = [\"u\"] }\n\"x = 1\" = { fixed = [\"u\"] }\n";
+    let study = studied_text("p4p", text, &[]);
+    let own = decided(&study, "functional.euler");
+    assert!(
+        own.detail().contains("not smooth in the body"),
+        "{}",
+        own.detail()
+    );
+}

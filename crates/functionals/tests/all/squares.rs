@@ -22,6 +22,16 @@ fn stationary_fields_make_squares_vanish() {
     for (density, ends, stated, expected) in [
         ("1/2 u,x^2 + 1/2 u^2", free, "u = 0", "proved"),
         ("1/2 u,x^2", free, "u,x = 0", "proved"),
+        // Of several degrees: ∫ u'² + u⁴ = 0.
+        ("u,x^2/2 + u^4/4", free, "u = 0", "proved"),
+        ("1/2 (u,x + u)^2 + x^2 u^4", free, "u = 0", "proved"),
+        ("u,x^4 + u^6 + 3", free, "u = 0", "proved"),
+        (
+            "u,x^2/2 + u^4/4",
+            ["\"u^2\"", "\"3 u^6\""],
+            "u = 0",
+            "proved",
+        ),
         // The constants are stationary.
         ("1/2 u,x^2", free, "u = 0", "refuted"),
         // exp(x) satisfies the equation, and no condition at the ends.
@@ -36,6 +46,8 @@ fn stationary_fields_make_squares_vanish() {
     for (density, ends) in [
         ("1/2 u,x^2 - 5 u^2", free),
         ("1/2 u,x^2", ["\"u^2\"", "\"0\""]),
+        // An odd power has both signs.
+        ("1/2 u,x^2 + u^3", free),
     ] {
         let (word, detail) = euler(density, "", ends, "u = 0");
         assert_ne!(word, "refuted", "{density}: {detail}");
@@ -59,4 +71,20 @@ fn data_on_the_boundary_are_no_fields() {
     let springs = ["\"1/2 (u - g)^2\"", "\"1/2 (u - h)^2\""];
     let (word, detail) = euler("1/2 u,x^2", data, springs, "u,x = 0");
     assert_eq!(word, "refuted", "{detail}");
+}
+
+/// A field that stands apart from another one is varied by itself: that of u has a load, that of w none.
+#[test]
+fn a_field_by_itself_is_a_sum_of_squares() {
+    let text = "kind = \"functional\"\nname = \"m\"\ndensity = \"u,x^2/2 - q u + w,x^2/2 + (1 + u^2) w^4/4\"\nyields = [\"a\", \"b\"]\n\
+        [domain]\ncoordinates = [\"x\"]\nintervals = { x = [0, 1] }\n[fields]\nu = \"scalar\"\nw = \"scalar\"\n[data]\nq = \"scalar\"\n\
+        [boundary]\n\"x = 0\" = { fixed = [\"u\"] }\n\"x = 1\" = { fixed = [\"u\"] }\n\
+        [equations]\na = \"u,xx + q = 0\"\nb = \"w = 0\"\n";
+    let study = studied_text("p4p", text, &[]);
+    let own = decided(&study, "functional.euler");
+    assert_eq!(own.word(), "proved", "{}", own.detail());
+    let held = text.replace("[\"u\"]", "[\"u\", \"w\"]");
+    let study = studied_text("p4p", &held, &[]);
+    let own = decided(&study, "functional.euler");
+    assert_ne!(own.word(), "refuted", "{}", own.detail());
 }

@@ -38,6 +38,8 @@ pub(super) struct Comparison<'f> {
     pub(super) refutes: bool,
     /// Whether the conditions where two faces meet contradict each other.
     contradicts_at_corner: Cell<bool>,
+    /// Whether what is stated where these meet never holds either.
+    states_nothing: Cell<bool>,
     /// Whether jets of a system are those of solutions, as far as that was asked.
     pub(super) extended: RefCell<BTreeMap<System, bool>>,
 }
@@ -86,6 +88,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: true,
             contradicts_at_corner: Cell::new(false),
+            states_nothing: Cell::new(false),
             extended: RefCell::default(),
         }
     }
@@ -113,6 +116,7 @@ impl<'f> Comparison<'f> {
             nonzero: RefCell::default(),
             refutes: self.refutes,
             contradicts_at_corner: Cell::new(false),
+            states_nothing: Cell::new(false),
             extended: RefCell::default(),
         }
     }
@@ -234,12 +238,15 @@ impl<'f> Comparison<'f> {
             .collect();
         derived = derived.with_where_meeting(&[imposed.clone(), conditions].concat());
         stated = stated.with_where_meeting(&[imposed, groups_of(Role::Yielded)].concat());
-        if derived.contradiction().is_some() {
-            self.contradicts_at_corner.set(true);
-        }
         let values: Vec<Expr> = here.iter().map(|corner| corner.value).collect();
         let residuals = equations.iter().flat_map(|e| e.residuals.clone());
         let residuals: Vec<Expr> = residuals.collect();
+        if self.never_hold(&values) || derived.contradiction().is_some() {
+            self.contradicts_at_corner.set(true);
+            if self.never_hold(&residuals) {
+                self.states_nothing.set(true);
+            }
+        }
         for equation in equations {
             judged.push(self.equation(equation, &derived, &values));
         }
@@ -251,6 +258,13 @@ impl<'f> Comparison<'f> {
             let on = corner.place();
             judged.push(self.as_whole(own, &[corner.value], System::Stated, Some(&on)));
         }
+    }
+
+    /// Whether one of these is a number that is not zero, whatever the fields are.
+    fn never_hold(&self, es: &[Expr]) -> bool {
+        let space = &*self.functional.space;
+        let mut all = es.iter();
+        all.any(|&e| space.jets_in(&[e]).is_empty() && space.sign(e).is_nonzero())
     }
 
     /// Where two curved pieces meet, what acts along them at the edge has to cancel.
@@ -479,6 +493,9 @@ impl<'f> Comparison<'f> {
         inverted: &BTreeSet<String>,
     ) -> Verdict {
         let mut all = Verdict::Proved(Proof::exact("", ""));
+        if self.states_nothing.get() {
+            return nothing_holds();
+        }
         if let Some(refuted) = refutation(&judged) {
             return refuted;
         }
@@ -492,8 +509,9 @@ impl<'f> Comparison<'f> {
                     all = all.and(Verdict::Proved(proof));
                 }
                 other => {
+                    let mut named = BTreeSet::new();
                     let mut open = own.open;
-                    open.dedup();
+                    open.retain(|one| named.insert(one.clone()));
                     let why = if !open.is_empty() {
                         format!("{} could not be solved for any field", open.join(" and "))
                     } else {
@@ -514,10 +532,7 @@ impl<'f> Comparison<'f> {
             return all;
         };
         if self.is_contradictory() {
-            return Verdict::not_applicable(
-                "functional.euler",
-                "no field makes the functional stationary, and none satisfies what is stated",
-            );
+            return nothing_holds();
         }
         proof.on = on(&pivots, inverted);
         proof.detail = self.detail();
@@ -619,6 +634,13 @@ fn are_same(one: &[&Piece], other: &[&Piece]) -> bool {
 /// Why what is refuted at one place is not refuted of the systems.
 const NOT_AS_WHOLE: &str = "does not follow from the other system at its place alone, but conditions without data of their own hold for few \
      fields, and together they may enforce it; no polynomials were found that satisfy one system and not the other";
+
+fn nothing_holds() -> Verdict {
+    Verdict::not_applicable(
+        "functional.euler",
+        "no field makes the functional stationary, and none satisfies what is stated",
+    )
+}
 
 /// The verdict on several expressions where equations hold.
 fn of_all(es: &[Expr], solved: &Solved<'_>) -> Verdict {

@@ -1,8 +1,9 @@
-//! Where a proof holds: where roots, logarithms and denominators are defined, and what was divided by does not vanish.
+//! Where a proof holds: where roots, logarithms, denominators and inverse functions are defined, and what was divided by does not vanish.
 
 use crate::elimination::factors_of;
 use crate::functional::{Functional, Role};
 use crate::notation::denominators;
+use crate::smoothness::{guard_of, with_equality};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::zero::assumptions::{is_contradicted, is_implied, Relation, SignSet};
 use chetaev_symbolic::zero::known_sign;
@@ -129,17 +130,20 @@ fn conditions(functional: &Functional, es: &[Expr], need: Need) -> Vec<Needed> {
                     (false, false) => return None,
                 }
             }
-            Node::Apply {
-                function,
-                arguments,
-            } => match function {
-                Function::Log => (*arguments.first()?, Relation::Greater),
-                Function::Abs if is_smooth && !smoothed.contains(&e) => {
-                    (*arguments.first()?, Relation::NotEqual)
+            Node::Apply { function, .. } => {
+                let has_values = matches!(function, Function::Abs | Function::Sign);
+                if has_values && (!is_smooth || smoothed.contains(&e)) {
+                    return None;
                 }
-                Function::Sign if is_smooth => (*arguments.first()?, Relation::NotEqual),
-                _ => return None,
-            },
+                let (inner, relation) = guard_of(g, e)?;
+                // At the ends of where they are defined these have values, and no derivatives.
+                let ends = [Function::Asin, Function::Acos, Function::Acosh];
+                if !is_smooth && ends.contains(function) {
+                    (inner, with_equality(relation))
+                } else {
+                    (inner, relation)
+                }
+            }
             _ => return None,
         };
         let sign = functional.space.sign(inner);

@@ -9,16 +9,18 @@ mod propagation;
 mod remarks;
 mod separation;
 mod squares;
+mod sufficiency;
 
 use self::comparison::Comparison;
 use self::conditions::{in_words, open_factors, where_defined, where_nonzero, Needed};
 use self::exceptions::holds_at_zero;
 use self::plane::planes;
 use self::separation::separated;
+use self::sufficiency::insufficient;
 use super::branches::{branches, Branch};
 use super::reduction::{admitted, reduced, restricted};
 use super::traces::{traces, Traces};
-use super::{Claim, Context, Finding};
+use super::{on_smoothness, Claim, Context, Finding};
 use crate::functional::{Functional, Role};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -50,7 +52,8 @@ impl Claim for Euler {
          as `solvable`. A refutation shows a \
          jet at which one system holds and the other does not, where data can be chosen so that it is the jet of a solution (each equation of the body has \
          data of its own, or these are linear and each condition on the boundary has); else polynomials \
-         that satisfy one system in the body and on its boundary, and not the other. Where there are none the claim is undecided, as conditions at \
+         that satisfy one system in the body and on its boundary, and not the other; where variations are restricted, polynomials that satisfy what is \
+         imposed and stated, with a variation that keeps what is imposed and changes the functional. Where there are none the claim is undecided, as conditions at \
          several places may enforce together what none of them does (a beam without supports whose load is zero only moves rigidly)."
     }
 
@@ -66,7 +69,13 @@ impl Claim for Euler {
         let functional = cx.functional();
         if functional.with_role(Role::Yielded).next().is_none() {
             let printed = match &cx.variation {
-                Ok(_) => "so the Euler equations are only printed".to_owned(),
+                Ok(_) => {
+                    let said = on_smoothness(&cx.coefficients).map(|said| format!("; {said}"));
+                    format!(
+                        "so the Euler equations are only printed{}",
+                        said.unwrap_or_default()
+                    )
+                }
                 Err(problem) => format!("and the Euler equations are not derived: {problem}"),
             };
             return Verdict::not_applicable(
@@ -135,12 +144,15 @@ fn on_branch(functional: &Functional, nonnegative: &[Expr]) -> Verdict {
         Err(problem) => return Verdict::undecided(problem.to_string()),
     };
     if let Some(why) = restricted(functional, &own) {
-        return Verdict::undecided(why);
+        let refuted = nonnegative.is_empty().then(|| insufficient(functional));
+        return refuted.flatten().unwrap_or_else(|| Verdict::undecided(why));
     }
     let traces = traces(functional, &own);
     if let Traces::Open(why) = traces {
         let inside = Comparison::new(functional, &own, &[], nonnegative);
         let refuted = inside.refuted_inside(&mut Vec::new());
+        let is_general = nonnegative.is_empty();
+        let refuted = refuted.or_else(|| is_general.then(|| insufficient(functional)).flatten());
         return refuted.unwrap_or_else(|| Verdict::undecided(why));
     }
     let planes = planes(functional, &own);

@@ -4,12 +4,15 @@
 //! taken to be a box.
 
 use super::super::on_box::on_box;
+use super::super::special_values::put_in;
 use super::comparison::System;
 use super::extension::jet_factors;
-use crate::functional::{Functional, Interval, Piece, Role, Side, Solution};
+use crate::functional::{Functional, Interval, Piece, Role, Side, Solution, Special};
 use crate::linear;
+use crate::notation::denominators;
 use crate::polynomial::Polynomial;
 use crate::read::on_side;
+use crate::smoothness::{guards, Guard, Region};
 use crate::space::Jet;
 use crate::variation::{variation, Variation};
 use chetaev_symbolic::number::ball::Precision;
@@ -36,11 +39,12 @@ const MOST_FIELDS: usize = 6;
 
 /// A condition with the values of the variables that are constant where it holds.
 #[derive(Clone)]
-struct Holds {
+pub(super) struct Holds {
     what: String,
-    residual: Expr,
-    at: Vec<(usize, Rational)>,
-    is_imposed: bool,
+    pub(super) residual: Expr,
+    /// The variables that are constant where it holds.
+    pub(super) at: Vec<(usize, Rational)>,
+    pub(super) is_imposed: bool,
 }
 
 /// A linear condition: what it is without fields, and the factors of their jets.
@@ -50,13 +54,24 @@ struct Linear {
 }
 
 /// Polynomials by component.
-type Fields = BTreeMap<usize, Polynomial>;
+pub(super) type Fields = BTreeMap<usize, Polynomial>;
+
+/// What has to hold of fields so that something is defined and smooth, with the values of the variables that are constant where it is asked for.
+struct Asked {
+    guard: Guard,
+    at: Vec<(usize, Rational)>,
+}
 
 /// Two systems with numbers for parameters.
-struct Search<'f> {
-    functional: &'f Functional,
-    values: Vec<(Symbol, Rational)>,
-    systems: [Vec<Holds>; 2],
+pub(super) struct Search<'f> {
+    pub(super) functional: &'f Functional,
+    pub(super) values: Vec<(Symbol, Rational)>,
+    /// What is put in for constitutive functions.
+    energies: Vec<Special>,
+    /// What is imposed with what is derived, and with what is stated.
+    pub(super) systems: [Vec<Holds>; 2],
+    /// Where the densities and both systems are defined and smooth.
+    asked: Vec<Asked>,
     /// Whether the body has no shape, and was put on the box.
     is_placed: bool,
 }
@@ -75,13 +90,31 @@ pub(super) fn separated(functional: &Functional, own: &Variation) -> Option<Verd
     if !functional.pieces.iter().any(is_curved) {
         return searched(functional, own, false);
     }
-    let (placed, _) = on_box(functional, &unit_box(functional))?;
+    let placed = placed(functional, Faces::InTurn)?;
     let own = variation(&placed).ok()?;
     searched(&placed, &own, true)
 }
 
+/// How the faces of a box are shared out among the pieces.
+pub(super) enum Faces {
+    /// To one piece after the other.
+    InTurn,
+    /// One to each, and all others to the last.
+    MostToLast,
+}
+
+/// A functional on the unit box, where its pieces have no shape.
+pub(super) fn placed(functional: &Functional, faces: Faces) -> Option<Functional> {
+    let unit = unit_box(functional, faces);
+    let (placed, _) = on_box(functional, &unit)?;
+    Some(Functional {
+        intervals: unit.intervals,
+        ..placed
+    })
+}
+
 /// The unit box, its faces shared out among the pieces.
-fn unit_box(functional: &Functional) -> Solution {
+fn unit_box(functional: &Functional, faces: Faces) -> Solution {
     let space = &*functional.space;
     let g = &space.graph;
     let places = space.coordinates.iter().enumerate();
@@ -94,7 +127,13 @@ fn unit_box(functional: &Functional) -> Solution {
         })
     });
     let names = functional.pieces.iter().map(|piece| piece.name.clone());
-    let pieces = names.cycle().zip(sides).collect();
+    let pieces = match (faces, functional.pieces.last()) {
+        (Faces::MostToLast, Some(last)) => {
+            let others = std::iter::repeat(last.name.clone());
+            names.chain(others).zip(sides).collect()
+        }
+        _ => names.cycle().zip(sides).collect(),
+    };
     let intervals = axes.iter().map(|&axis| Interval {
         axis,
         lower: g.zero(),
@@ -115,7 +154,7 @@ fn unit_box(functional: &Functional) -> Solution {
 fn searched(functional: &Functional, own: &Variation, is_placed: bool) -> Option<Verdict> {
     (0..CHOICES).find_map(|choice| {
         let values = values(functional, choice)?;
-        let search = Search::new(functional, own, values)?.placed(is_placed);
+        let search = Search::new(functional, own, (values, Vec::new()))?.placed(is_placed);
         let both = [
             (System::Derived, System::Stated),
             (System::Stated, System::Derived),
@@ -126,7 +165,7 @@ fn searched(functional: &Functional, own: &Variation, is_placed: bool) -> Option
 }
 
 /// Numbers for the parameters that have no value, with which what is assumed of them holds.
-fn values(functional: &Functional, choice: i64) -> Option<Vec<(Symbol, Rational)>> {
+pub(super) fn values(functional: &Functional, choice: i64) -> Option<Vec<(Symbol, Rational)>> {
     let space = &*functional.space;
     let g = &space.graph;
     let mut symbols = BTreeSet::new();
@@ -158,6 +197,10 @@ fn values(functional: &Functional, choice: i64) -> Option<Vec<(Symbol, Rational)
     let mut all = assumed.list().iter();
     let is_violated = all.any(|own| {
         let difference = put(g.sub(own.left, own.right));
+        // What is assumed of fields is looked at where these are chosen.
+        if !space.jets_in(&[difference]).is_empty() {
+            return false;
+        }
         // Of the place nothing is chosen.
         if space.is_of_place(&[difference]) {
             return is_contradicted(own.relation, known_sign(g, difference, &Default::default()));
@@ -190,15 +233,17 @@ fn with(functional: &Functional, values: &[(Symbol, Rational)], e: Expr) -> Expr
 }
 
 impl<'f> Search<'f> {
-    fn new(
+    pub(super) fn new(
         functional: &'f Functional,
         own: &Variation,
-        values: Vec<(Symbol, Rational)>,
+        (values, energies): (Vec<(Symbol, Rational)>, Vec<Special>),
     ) -> Option<Search<'f>> {
         let mut search = Search {
             functional,
             values,
+            energies,
             systems: Default::default(),
+            asked: Vec::new(),
             is_placed: false,
         };
         let mut derived = search.stated(Role::Imposed)?;
@@ -206,7 +251,64 @@ impl<'f> Search<'f> {
         derived.extend(search.derived(own)?);
         stated.extend(search.stated(Role::Yielded)?);
         search.systems = [derived, stated];
+        search.asked = search.guards()?;
         Some(search)
+    }
+
+    /// What densities, conditions and equations ask for, found before fields are put in: of 0/0 nothing would be left.
+    fn guards(&self) -> Option<Vec<Asked>> {
+        let functional = self.functional;
+        let g = &functional.space.graph;
+        let pieces = functional.pieces.iter().map(|piece| {
+            let on = Some(piece.name.as_str());
+            Some((self.on(on, piece.density), self.place(on)?))
+        });
+        let mut all: Vec<(Expr, Vec<(usize, Rational)>)> = pieces.collect::<Option<_>>()?;
+        all.push((functional.density, Vec::new()));
+        let written = denominators(functional).into_iter();
+        all.extend(written.map(|e| (g.powi(e, -1), Vec::new())));
+        let systems = self.systems.iter().flatten();
+        all.extend(systems.map(|own| (own.residual, own.at.clone())));
+        let asked = all.into_iter().flat_map(|(e, at)| {
+            let own = guards(g, self.put(e)).into_iter();
+            own.map(move |guard| Asked {
+                guard,
+                at: at.clone(),
+            })
+        });
+        Some(asked.collect())
+    }
+
+    /// Whether everything is known to be defined and smooth for some fields, on the body and on its boundary.
+    pub(super) fn is_smooth(&self, fields: &Fields) -> bool {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let region = Region::new(space, self.intervals(), true);
+        self.asked.iter().all(|own| {
+            let (e, relation) = own.guard;
+            let places = own.at.iter();
+            let places =
+                places.map(|(axis, x)| (space.coordinates[*axis].expr, g.number(x.clone())));
+            let places: Vec<(Expr, Expr)> = places.collect();
+            let e = g.substitute(self.for_fields(e, fields), &places);
+            region.holds((e, relation)) == Some(true)
+        })
+    }
+
+    /// The box with what is put in for parameters.
+    pub(super) fn intervals(&self) -> Vec<Interval> {
+        let own = self.functional.intervals.iter().map(|own| Interval {
+            axis: own.axis,
+            lower: self.put(own.lower),
+            upper: self.put(own.upper),
+        });
+        own.collect()
+    }
+
+    /// An expression with what is put in for parameters and constitutive functions.
+    pub(super) fn put(&self, e: Expr) -> Expr {
+        let e = put_in(self.functional, &self.energies, e);
+        with(self.functional, &self.values, e)
     }
 
     fn placed(self, is_placed: bool) -> Search<'f> {
@@ -215,11 +317,11 @@ impl<'f> Search<'f> {
 
     fn number(&self, e: Expr) -> Option<Rational> {
         let g = &self.functional.space.graph;
-        g.as_number(with(self.functional, &self.values, e)).cloned()
+        g.as_number(self.put(e)).cloned()
     }
 
     /// Where a piece lies, or where two meet.
-    fn place(&self, on: Option<&str>) -> Option<Vec<(usize, Rational)>> {
+    pub(super) fn place(&self, on: Option<&str>) -> Option<Vec<(usize, Rational)>> {
         let names = on.into_iter().flat_map(|on| on.split(','));
         let at = names.map(|name| match &self.functional.piece(name.trim())?.side {
             Side::Flat { axis, at, .. } => Some((*axis, self.number(*at)?)),
@@ -229,7 +331,7 @@ impl<'f> Search<'f> {
     }
 
     /// A condition with the normal of the piece.
-    fn on(&self, on: Option<&str>, e: Expr) -> Expr {
+    pub(super) fn on(&self, on: Option<&str>, e: Expr) -> Expr {
         let names = on.into_iter().flat_map(|on| on.split(','));
         let pieces = names.filter_map(|name| self.functional.piece(name.trim()));
         pieces.fold(e, |e, piece| {
@@ -237,7 +339,7 @@ impl<'f> Search<'f> {
         })
     }
 
-    fn stated(&self, role: Role) -> Option<Vec<Holds>> {
+    pub(super) fn stated(&self, role: Role) -> Option<Vec<Holds>> {
         let mut found = Vec::new();
         for equation in self.functional.with_role(role) {
             for &residual in &equation.residuals {
@@ -315,7 +417,8 @@ impl<'f> Search<'f> {
             all.find_map(|fields| {
                 violated.iter().find_map(|own| {
                     let value = self.value(own, &fields)?;
-                    (!value.is_zero()).then(|| self.refuted(own, one, &fields, &value))
+                    let is_witness = !value.is_zero() && self.is_smooth(&fields);
+                    is_witness.then(|| self.refuted(own, one, &fields, &value))
                 })
             })
         })
@@ -326,7 +429,7 @@ impl<'f> Search<'f> {
         let space = &*self.functional.space;
         let mut found: Vec<Vec<Holds>> = vec![Vec::new()];
         for own in all {
-            let mut factors = jet_factors(space, with(self.functional, &self.values, own.residual));
+            let mut factors = jet_factors(space, self.put(own.residual));
             if found.len() * factors.len() > MOST_PRODUCTS {
                 factors = vec![own.residual];
             }
@@ -351,10 +454,7 @@ impl<'f> Search<'f> {
     fn fields_of(&self, all: &[Holds], degree: u32) -> Vec<Fields> {
         let space = &*self.functional.space;
         let residuals: Vec<Expr> = all.iter().map(|own| own.residual).collect();
-        let residuals: Vec<Expr> = residuals
-            .iter()
-            .map(|&e| with(self.functional, &self.values, e))
-            .collect();
+        let residuals: Vec<Expr> = residuals.iter().map(|&e| self.put(e)).collect();
         let jets = space.jets_in(&residuals);
         let components: BTreeSet<usize> = jets.iter().map(|jet| jet.component).collect();
         let interior: BTreeSet<usize> = self
@@ -376,7 +476,8 @@ impl<'f> Search<'f> {
             .collect()
     }
 
-    /// Choices of fields with which equations may be linear in the others: all zero, one of them zero, all linear in the place.
+    /// Choices of fields with which equations may be linear in the others: all zero, one of them zero, all constant, or linear in the place, and one of
+    /// them linear where the others are zero.
     fn known_fields(&self, interior: &BTreeSet<usize>) -> Vec<Fields> {
         let space = &*self.functional.space;
         let d = space.coordinates.len();
@@ -401,10 +502,17 @@ impl<'f> Search<'f> {
         };
         found.push(interior.iter().enumerate().map(constant).collect());
         found.push(interior.iter().enumerate().map(linear).collect());
+        if interior.len() > 1 {
+            found.extend(interior.iter().enumerate().map(|one| {
+                let mut own: Fields = interior.iter().map(zero).collect();
+                own.extend([linear(one)]);
+                own
+            }));
+        }
         found
     }
 
-    fn solved(
+    pub(super) fn solved(
         &self,
         all: &[Holds],
         (open, degree): (&[usize], u32),
@@ -464,7 +572,7 @@ impl<'f> Search<'f> {
             let value = known.get(&jet.component)?;
             Some(value.slopes(&jet.by).expr(space))
         };
-        let e = space.replace(with(self.functional, &self.values, own.residual), &put);
+        let e = space.replace(self.put(own.residual), &put);
         let zero = |e: Expr| space.replace(e, &|symbol| space.as_jet(symbol).map(|_| g.zero()));
         let mut factors = Vec::new();
         for jet in space.jets_in(&[e]) {
@@ -481,17 +589,21 @@ impl<'f> Search<'f> {
     }
 
     /// What a condition is for some fields, those that are not among them being zero.
-    fn value(&self, own: &Holds, fields: &Fields) -> Option<Polynomial> {
+    pub(super) fn value(&self, own: &Holds, fields: &Fields) -> Option<Polynomial> {
+        let e = self.put(own.residual);
+        let e = self.for_fields(e, fields);
+        Some(Polynomial::of(&self.functional.space, e)?.at(&own.at))
+    }
+
+    pub(super) fn for_fields(&self, e: Expr, fields: &Fields) -> Expr {
         let space = &*self.functional.space;
-        let e = with(self.functional, &self.values, own.residual);
-        let e = space.replace(e, &|symbol| {
+        space.replace(e, &|symbol| {
             let jet = space.as_jet(symbol)?;
             Some(match fields.get(&jet.component) {
                 Some(value) => value.slopes(&jet.by).expr(space),
                 None => space.graph.zero(),
             })
-        });
-        Some(Polynomial::of(space, e)?.at(&own.at))
+        })
     }
 
     fn refuted(&self, own: &Holds, one: System, fields: &Fields, value: &Polynomial) -> Verdict {
@@ -554,7 +666,7 @@ fn place_of(value: &Polynomial, d: usize) -> Vec<Rational> {
 }
 
 /// All products of powers up to a degree of the variables along which something varies.
-fn monomials(d: usize, degree: u32, varies: &dyn Fn(usize) -> bool) -> Vec<Polynomial> {
+pub(super) fn monomials(d: usize, degree: u32, varies: &dyn Fn(usize) -> bool) -> Vec<Polynomial> {
     let mut all: Vec<Vec<u32>> = vec![Vec::new()];
     for axis in 0..d {
         let longer = all.into_iter().flat_map(|own| {
