@@ -19,6 +19,8 @@ pub(crate) struct AdmissibleValues {
     symbol: Symbol,
     /// Functions of the parameter with how they are to compare with zero.
     conditions: Vec<Condition>,
+    /// Functions of the parameter at whose zeros the model is not smooth about the motion.
+    corners: Vec<Expr>,
 }
 
 /// Values of several parameters for which a motion is: it and what the model states are real, and nothing that is assumed fails.
@@ -172,7 +174,8 @@ impl AdmissibleValues {
         let corners = AdmissibleValues::of(system, symbol, corners);
         AdmissibleValues {
             symbol,
-            conditions: [assumed.conditions, real.conditions, corners.conditions].concat(),
+            conditions: [assumed.conditions, real.conditions].concat(),
+            corners: corners.functions(),
         }
     }
 
@@ -197,12 +200,30 @@ impl AdmissibleValues {
                 conditions.push(own);
             }
         }
-        AdmissibleValues { symbol, conditions }
+        AdmissibleValues {
+            symbol,
+            conditions,
+            corners: Vec::new(),
+        }
     }
 
-    /// The functions at whose zeros something that is assumed begins or ceases to hold.
+    /// The functions at whose zeros something that is assumed begins or ceases to hold, or the model is not smooth.
     pub(crate) fn functions(&self) -> Vec<Expr> {
-        self.conditions.iter().map(|own| own.function).collect()
+        let conditions = self.conditions.iter().map(|own| own.function);
+        conditions.chain(self.corners.iter().copied()).collect()
+    }
+
+    /// Whether the model may not be smooth about the motion at the value that an interval encloses: then linear equations say nothing.
+    pub(crate) fn has_corner(&self, g: &Graph, root: &Root) -> bool {
+        let is_open = |&e: &Expr| {
+            let sign = if root.low == root.high {
+                sign_at(g, e, self.symbol, &root.low)
+            } else {
+                sign_over(g, e, self.symbol, root)
+            };
+            !matches!(sign, Some(Ordering::Less | Ordering::Greater))
+        };
+        self.corners.iter().any(is_open)
     }
 
     /// Where something that is assumed begins or ceases to hold; `None` where that was not decided.
@@ -302,7 +323,10 @@ fn corners_along(
     stated.extend(system.controls.iter().filter_map(|own| own.law));
     let mut left = flattened(g, &stated, 1, &vanishes).functions;
     left.extend(flattened(g, &[system.lagrangian], 2, &vanishes).functions);
+    // A root of a parameter has no corner in the state.
+    let state = [system.coordinate_symbols(), system.velocity_symbols()].concat();
     let all = corners(g, &left).into_iter().map(|(_, inside)| inside);
+    let all = all.filter(|&inside| g.contains_any(inside, &state));
     all.map(|inside| Condition {
         function: put(inside),
         relation: Relation::NotEqual,

@@ -298,13 +298,10 @@ impl Chain<'_, '_> {
         forms.into_iter().take(count).map(with).collect()
     }
 
-    /// Whether a generator is an even root or an absolute value, and so not negative.
+    /// Whether a generator is a root or an absolute value, and so not negative: odd roots too are those of numbers that are not negative.
     fn is_root(&self, generator: usize) -> bool {
-        match self.field.generators()[generator].kind {
-            Kind::Absolute => true,
-            Kind::Radical { order } => order % 2 == 0,
-            _ => false,
-        }
+        let kind = &self.field.generators()[generator].kind;
+        matches!(kind, Kind::Absolute | Kind::Radical { .. })
     }
 
     /// Whether no unknown occurs in a generator.

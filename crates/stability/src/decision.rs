@@ -223,6 +223,8 @@ struct Border {
     exact: Option<String>,
     /// There is no such motion, so that nothing fails.
     is_absent: bool,
+    /// The model may not be smooth there, and nothing is said.
+    is_corner: bool,
 }
 
 impl Border {
@@ -295,6 +297,9 @@ impl Pieces {
         };
         let functions = [question.boundary_functions(g), further].concat();
         own.cut(about, statement, &ranges, (cuts, &admitted, &functions))?;
+        for border in &mut own.borders {
+            border.is_corner = admitted.has_corner(g, &border.root);
+        }
         own.decide_borders(cx, about, statement, (symbol, &ranges, &functions));
         Some(own)
     }
@@ -318,7 +323,7 @@ impl Pieces {
             let sample = (a + b) / RBig::from(2);
             let around = ranges.regions.iter();
             let region = around.clone().find(|r| r.low <= *a && *b <= r.high);
-            let Some(place) = region.map(|r| about.question.place(r.is_left)) else {
+            let Some(place) = region.map(|r| about.question.place_in(r)) else {
                 continue;
             };
             if !admitted.contains(g, &sample)? {
@@ -338,6 +343,7 @@ impl Pieces {
             why: None,
             exact: None,
             is_absent: false,
+            is_corner: false,
         };
         roots.retain(|root| admitted.contains_root(g, root, functions) != Some(false));
         self.borders = roots.into_iter().map(border).collect();
@@ -376,6 +382,9 @@ impl Pieces {
                 // All eigenvalues are as they are beside it.
                 crossing: Crossing::Touching,
             });
+            if border.is_corner {
+                continue;
+            }
             border.know(statement.at_boundary(about, &boundary));
             if border.holds.is_some() {
                 continue;

@@ -5,7 +5,7 @@
 //! coefficient vanishes is passed by a real eigenvalue, one where Δ_{m−1} does by a pair (Orlando 1911).
 
 use crate::isolation::{joined, Root};
-use crate::real_roots::{overlap, sign_at, zeros_of_factors, Zero, FINE, USUAL};
+use crate::real_roots::{overlap, sign_at, sign_over, zeros_of_factors, Zero, FINE, USUAL};
 use crate::real_values::{conditions, Condition};
 use crate::steady::closed;
 use chetaev_mechanics::system::Relation;
@@ -165,8 +165,11 @@ pub struct Region {
     pub low: RBig,
     /// The upper end.
     pub high: RBig,
-    /// Whether all deciding polynomials have all their zeros left of the axis; if not, one of them has a zero right of it, or is not real.
+    /// Whether all deciding polynomials have all their zeros left of the axis.
     pub is_left: bool,
+    /// Whether, where they have not, one of them has a zero right of it, or is not real: where two zeros are opposite for all values, both may lie on
+    /// the axis.
+    pub is_decided: bool,
     /// A value inside, at which the signs were decided.
     pub sample: RBig,
 }
@@ -247,11 +250,17 @@ pub(crate) fn ranges_within(
     let highs = cuts.iter().map(|root| &root.low).chain([high]);
     for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
         let sample = (a + b) / RBig::from(2);
-        let is_left = domain.holds(g, symbol, &sample)? && range.are_left(&lists, &sample)?;
+        let is_real = domain.holds(g, symbol, &sample)?;
+        let side = if is_real {
+            range.side(&lists, &sample)?
+        } else {
+            Side::Right
+        };
         regions.push(Region {
             low: a.clone(),
             high: b.clone(),
-            is_left,
+            is_left: side == Side::Left,
+            is_decided: side != Side::Opposite,
             sample,
         });
     }
@@ -337,6 +346,17 @@ impl Over<'_> {
             Crossing::Pair
         };
         let mut all = self.boundaries(leading, Crossing::Infinity)?;
+        // Where all coefficients vanish, as those of b λ² + sin b do at b = 0, no zero needs to go to infinity.
+        let stays_finite = |zero: &Zero| {
+            let mut others = own.coefficients.iter().rev().skip(1);
+            let sign = |&e: &Expr| sign_over(self.g, e, self.symbol, &zero.root);
+            !others.any(|e| matches!(sign(e), Some(Ordering::Less | Ordering::Greater)))
+        };
+        for (boundary, zero) in &mut all {
+            if stays_finite(zero) {
+                boundary.crossing = Crossing::Singular;
+            }
+        }
         all.extend(self.boundaries(*own.coefficients.first()?, Crossing::Zero)?);
         let from_end = |k: usize| list.len().checked_sub(k).and_then(|at| list.get(at));
         if let Some(&last) = from_end(2) {
@@ -375,20 +395,43 @@ impl Over<'_> {
         }
     }
 
-    /// Whether all of some polynomials have all zeros left of the axis.
-    fn are_left(&self, lists: &[Vec<Expr>], at: &RBig) -> Option<bool> {
-        let all: Option<Vec<bool>> = lists.iter().map(|list| self.is_left(list, at)).collect();
-        Some(all?.into_iter().all(|own| own))
+    /// Where the zeros of some polynomials lie, each given by its leading coefficient and its determinants.
+    fn side(&self, lists: &[Vec<Expr>], at: &RBig) -> Option<Side> {
+        let signs = |list: &Vec<Expr>| -> Option<Vec<Ordering>> {
+            let signs = list.iter().map(|&e| sign_at(self.g, e, self.symbol, at));
+            signs.collect()
+        };
+        let all: Option<Vec<Vec<Ordering>>> = lists.iter().map(signs).collect();
+        let sides = all?.into_iter().map(|signs| Side::of(&signs));
+        Some(sides.max().unwrap_or(Side::Left))
     }
+}
 
-    /// Whether a polynomial, given by its leading coefficient and its determinants, has all zeros left of the axis. Where the leading
-    /// coefficient is negative determinants of odd size change their signs.
-    fn is_left(&self, list: &[Expr], at: &RBig) -> Option<bool> {
-        let signs: Option<Vec<Ordering>> = list
-            .iter()
-            .map(|&e| sign_at(self.g, e, self.symbol, at))
-            .collect();
-        Some(are_positive(&signs?))
+/// Where the zeros of a polynomial lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Side {
+    /// All left of the axis.
+    Left,
+    /// Not all left of it; two are opposite, or one is zero, and nothing else is known.
+    Opposite,
+    /// One is right of it.
+    Right,
+}
+
+impl Side {
+    /// By the signs of the leading coefficient and of the determinants of the polynomial as it stands.
+    pub(crate) fn of(signs: &[Ordering]) -> Side {
+        if are_positive(signs) {
+            return Side::Left;
+        }
+        // Without two opposite zeros none lies on the axis (Orlando 1911).
+        let list = signs.get(1..).unwrap_or_default();
+        let mut last = list.iter().rev().take(2);
+        if last.any(|sign| *sign == Ordering::Equal) {
+            Side::Opposite
+        } else {
+            Side::Right
+        }
     }
 }
 
@@ -492,6 +535,14 @@ impl Ranges {
         }
     }
 
+    /// The same without the boundaries at which there is no motion.
+    #[must_use]
+    pub fn without(self, is_absent: &dyn Fn(&Root) -> bool) -> Ranges {
+        let mut boundaries = self.boundaries;
+        boundaries.retain(|own| !is_absent(&own.root));
+        Ranges { boundaries, ..self }
+    }
+
     /// The same for a person: without the boundaries at which two eigenvalues are opposite while others stay right of the axis, on both sides
     /// and, as is said of each, there.
     #[must_use]
@@ -499,7 +550,8 @@ impl Ranges {
         let (mut boundaries, mut regions) = (self.boundaries.clone(), self.regions.clone());
         let mut at = 0;
         while at + 1 < regions.len() {
-            let is_same = !regions[at].is_left && !regions[at + 1].is_left;
+            let is_unstable = |own: &Region| !own.is_left && own.is_decided;
+            let is_same = is_unstable(&regions[at]) && is_unstable(&regions[at + 1]);
             let between = boundaries
                 .iter()
                 .position(|b| b.root.low >= regions[at].high && b.root.high <= regions[at + 1].low);

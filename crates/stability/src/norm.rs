@@ -6,7 +6,7 @@
 use crate::steady::closed;
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::rational::to_i64;
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// A function with one of its square roots taken out.
 pub(crate) struct Norm {
@@ -54,7 +54,7 @@ impl Norm {
     }
 }
 
-/// Powers with half a whole number as exponent, of functions of a symbol: each with its base and twice the exponent.
+/// Powers with half a whole number as exponent, of functions of a symbol, absolute values among them: each with its base and twice the exponent.
 fn halves(g: &Graph, e: Expr, symbol: Symbol) -> Vec<(Expr, Expr, i64)> {
     let half = |part: Expr| match g.node(part) {
         Node::Power { base, exponent } if g.contains_any(*base, &[symbol]) => {
@@ -62,6 +62,13 @@ fn halves(g: &Graph, e: Expr, symbol: Symbol) -> Vec<(Expr, Expr, i64)> {
             let twice = exponent * Rational::from(2);
             let is_half = !exponent.denominator().is_one() && twice.denominator().is_one();
             Some((part, *base, to_i64(&twice).filter(|_| is_half)?))
+        }
+        // |B| is the root of B².
+        Node::Apply {
+            function: Function::Abs,
+            arguments,
+        } if g.any_contains_any(arguments, &[symbol]) => {
+            Some((part, g.powi(*arguments.first()?, 2), 1))
         }
         _ => None,
     };

@@ -1,13 +1,13 @@
 //! The question of stability as it is asked of a system: linear equations, their characteristic polynomial, and the ranges of one parameter in
 //! which the eigenvalues that were not split off lie left of the axis, or on it.
 
-use crate::admissible_values::AdmissibleValues;
+use crate::admissible_values::{AdmissibleValues, Reality};
 use crate::characteristic::Characteristic;
 use crate::complex_zeros::zeros;
 use crate::eigenvalues::{Complex, Known};
 use crate::enclosure::is_right_of_axis_at;
 use crate::expansion::Expansion;
-use crate::hurwitz::{are_positive, determinants, ranges, ranges_within, Deciding, Ranges};
+use crate::hurwitz::{determinants, ranges, ranges_within, Deciding, Ranges, Region, Side};
 use crate::isolation::Root;
 use crate::linearization::{Linearization, LinearizationError};
 pub use crate::parameter_values::{
@@ -20,6 +20,8 @@ use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The linear equations about a motion with their polynomial.
 #[derive(Clone, Debug)]
@@ -32,7 +34,12 @@ pub struct Question {
     pub spectrum: Spectrum,
     /// The parameter that was left in.
     pub over: Option<Symbol>,
+    /// Stability over ranges that were asked for: several claims ask for the same.
+    known: Arc<Mutex<BTreeMap<Asked, Option<Ranges>>>>,
 }
+
+/// A range of the parameter, and the power of two to which its boundaries are enclosed.
+type Asked = (RBig, RBig, usize);
 
 /// What the eigenvalues do inside of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +82,7 @@ impl Question {
             polynomial,
             spectrum: spectrum.unwrap_or_default(),
             over,
+            known: Arc::default(),
         }
     }
 
@@ -117,17 +125,32 @@ impl Question {
         }
     }
 
-    /// What the eigenvalues do where the deciding polynomials have, or have not, all zeros left of the axis.
-    pub fn place(&self, is_left: bool) -> Place {
+    /// What the eigenvalues do throughout a region of the parameter.
+    pub fn place_in(&self, region: &Region) -> Place {
+        self.place_of(match (region.is_left, region.is_decided) {
+            (true, _) => Side::Left,
+            (false, true) => Side::Right,
+            (false, false) => Side::Opposite,
+        })
+    }
+
+    /// The same where all deciding polynomials have all their zeros left of the axis.
+    pub fn place_of_left(&self) -> Place {
+        self.place_of(Side::Left)
+    }
+
+    /// What the eigenvalues do where the zeros of the deciding polynomials lie so.
+    fn place_of(&self, side: Side) -> Place {
         let is_strict = self.spectrum.paired.is_none()
             && self
                 .polynomial
                 .as_ref()
                 .is_none_or(|own| own.further_zeros == 0);
-        match (is_left, is_strict) {
-            (true, true) => Place::Left,
-            (true, false) => Place::OnAxis,
-            (false, _) => Place::Right,
+        match side {
+            Side::Left if is_strict => Place::Left,
+            Side::Left => Place::OnAxis,
+            Side::Opposite => Place::NotLeft,
+            Side::Right => Place::Right,
         }
     }
 
@@ -144,29 +167,54 @@ impl Question {
         (low, high): (&RBig, &RBig),
         halvings: usize,
     ) -> Option<Ranges> {
+        let asked = (low.clone(), high.clone(), halvings);
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = known.get(&asked) {
+            return found.clone();
+        }
         let leading = *self.polynomial.as_ref()?.coefficients.last()?;
         let deciding = self.deciding(g);
-        ranges_within(g, (&deciding, leading), self.over?, (low, high), halvings)
+        let found = ranges_within(g, (&deciding, leading), self.over?, (low, high), halvings);
+        known.insert(asked, found.clone());
+        found
     }
 
-    /// Where in an interval of the parameter that was left in the motion begins or ceases to be real; none where that was not decided.
-    pub fn real_ends(&self, about: &Expansion<'_>, low: &RBig, high: &RBig) -> Vec<Root> {
+    /// Where in an interval of the parameter that was left in the motion begins or ceases to be real, or to be as the model assumes; none where
+    /// that was not decided.
+    pub fn ends_of_motion(&self, about: &Expansion<'_>, low: &RBig, high: &RBig) -> Vec<Root> {
         let Some(symbol) = self.over else {
             return Vec::new();
         };
         let g = &about.system.graph;
-        let real = AdmissibleValues::reality(about.system, &about.found, symbol).real;
-        let roots = real.functions().into_iter();
+        let Reality { real, assumed } =
+            AdmissibleValues::reality(about.system, &about.found, symbol);
+        let roots = [real.functions(), assumed.functions()].concat().into_iter();
         let roots = roots.filter_map(|e| real_roots(g, e, symbol, low, high));
         roots.flatten().collect()
     }
 
-    /// Whether the motion is proved not to be real at a value of the parameter that was left in.
+    /// Whether the motion is proved not to be real, or not to be as the model assumes, at a value of the parameter that was left in.
     pub fn is_absent(&self, about: &Expansion<'_>, at: &RBig) -> bool {
         let g = &about.system.graph;
         self.over.is_some_and(|symbol| {
-            let reality = AdmissibleValues::reality(about.system, &about.found, symbol);
-            reality.real.contains(g, at) == Some(false)
+            let Reality { real, assumed } =
+                AdmissibleValues::reality(about.system, &about.found, symbol);
+            [real, assumed]
+                .iter()
+                .any(|own| own.contains(g, at) == Some(false))
+        })
+    }
+
+    /// The same at a value that is enclosed, a zero of one of the functions of the boundaries.
+    pub fn is_absent_in(&self, about: &Expansion<'_>, root: &Root) -> bool {
+        let g = &about.system.graph;
+        self.over.is_some_and(|symbol| {
+            let functions = self.boundary_functions(g);
+            let Reality { real, assumed } =
+                AdmissibleValues::reality(about.system, &about.found, symbol);
+            [real, assumed]
+                .iter()
+                .any(|own| own.contains_root(g, root, &functions) == Some(false))
         })
     }
 
@@ -198,6 +246,19 @@ impl Question {
         all
     }
 
+    /// What the eigenvalues do at these values of all parameters that were left in; `None` where that was not decided.
+    pub fn place_with(&self, g: &Graph, values: &[(Expr, Expr)]) -> Option<Place> {
+        let polynomial = self.polynomial.as_ref()?.at(g, values);
+        let there = Question {
+            spectrum: Spectrum::of(g, &polynomial),
+            polynomial: Some(polynomial),
+            linear: self.linear.clone(),
+            over: None,
+            known: Arc::default(),
+        };
+        there.place_at(g, None)
+    }
+
     /// What the eigenvalues do, at a value of the parameter that was left in, if one was; `None` where that was not decided.
     pub fn place_at(&self, g: &Graph, at: Option<&RBig>) -> Option<Place> {
         let sign = |e: Expr| self.sign(g, e, at);
@@ -206,30 +267,14 @@ impl Question {
         {
             return None;
         }
-        let (mut is_left, mut is_apart_everywhere) = (true, true);
+        let mut found = Side::Left;
         for own in self.deciding(g) {
             let leading = sign(*own.coefficients.last()?)?;
-            let list: Option<Vec<Ordering>> = determinants(g, &own.coefficients)
-                .into_iter()
-                .map(sign)
-                .collect();
-            let list = list?;
-            let signs = [vec![leading], list.clone()].concat();
-            if are_positive(&signs) {
-                continue;
-            }
-            // Where two zeros are opposite, or one is zero, they may lie on the axis.
-            let is_apart = |at: usize| list.get(at).is_none_or(|s| *s != Ordering::Equal);
-            if !list.len().checked_sub(2).is_none_or(is_apart) || !is_apart(list.len() - 1) {
-                is_apart_everywhere = false;
-            }
-            is_left = false;
+            let list = determinants(g, &own.coefficients).into_iter().map(sign);
+            let list: Vec<Ordering> = list.collect::<Option<_>>()?;
+            found = found.max(Side::of(&[vec![leading], list].concat()));
         }
-        Some(if is_apart_everywhere {
-            self.place(is_left)
-        } else {
-            Place::NotLeft
-        })
+        Some(self.place_of(found))
     }
 
     /// Whether the masses are singular, whatever the parameter: fewer eigenvalues are finite than there are variables.

@@ -7,8 +7,9 @@
 
 use crate::characteristic::Characteristic;
 use crate::hurwitz::Deciding;
+use crate::steady::closed;
 use chetaev_symbolic::factors::{coefficients, irreducible_factors};
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 
 /// A polynomial in λ, its coefficients with the constant first.
 pub type Polynomial = Vec<Expr>;
@@ -37,6 +38,13 @@ impl Spectrum {
             None if polynomial.degree() == 0 => Vec::new(),
             None => vec![(polynomial.coefficients.clone(), 1)],
         };
+        let factors: Vec<(Polynomial, u32)> = factors
+            .into_iter()
+            .flat_map(|(f, power)| {
+                let parts = in_mirror_parts(g, f).into_iter();
+                parts.map(move |own| (own, power))
+            })
+            .collect();
         let even = factors.iter().filter(|(f, _)| is_even(g, f));
         let even: Vec<Expr> = even.map(|(f, _)| expression(g, symbol, f)).collect();
         let paired = match even.as_slice() {
@@ -59,6 +67,84 @@ impl Spectrum {
         });
         plain.chain(paired).collect()
     }
+}
+
+/// A polynomial as the part that is its own mirror image and the rest. With f(λ) = e(λ²) + λ o(λ²) that part is the greatest common divisor of e and
+/// o, by Euclid's algorithm with the zero test. An irreducible polynomial has none; where functions of parameters stand in the coefficients, as
+/// roots and sines do, not every factor is found as one of polynomials.
+fn in_mirror_parts(g: &Graph, own: Polynomial) -> Vec<Polynomial> {
+    let is_plain = own.iter().all(|&e| is_rational(g, e));
+    if is_plain || is_even(g, &own) {
+        return vec![own];
+    }
+    let part = |from: usize| trimmed(g, own.iter().skip(from).step_by(2).copied().collect());
+    let common = common_divisor(g, part(0), part(1));
+    if common.len() < 2 {
+        return vec![own];
+    }
+    // q(λ²).
+    let zero = g.zero();
+    let mut mirror: Polynomial = common.into_iter().flat_map(|e| [e, zero]).collect();
+    mirror.pop();
+    let (rest, _) = divided(g, &own, &mirror);
+    if rest.len() < 2 {
+        return vec![mirror];
+    }
+    vec![mirror, rest]
+}
+
+/// Whether an expression is a fraction of polynomials with rational coefficients.
+fn is_rational(g: &Graph, e: Expr) -> bool {
+    let parts = g.reachable(&[e]);
+    parts.into_iter().all(|part| match g.node(part) {
+        Node::Number(_) | Node::Symbol(_) | Node::Sum { .. } | Node::Product { .. } => true,
+        Node::Power { exponent, .. } => g.as_integer(*exponent).is_some(),
+        _ => false,
+    })
+}
+
+/// Without leading coefficients that vanish.
+fn trimmed(g: &Graph, mut own: Polynomial) -> Polynomial {
+    while own.last().is_some_and(|&e| g.is_zero(e)) {
+        own.pop();
+    }
+    own
+}
+
+/// The greatest common divisor with the leading coefficient 1.
+fn common_divisor(g: &Graph, mut one: Polynomial, mut other: Polynomial) -> Polynomial {
+    while !other.is_empty() {
+        let (_, rest) = divided(g, &one, &other);
+        (one, other) = (other, rest);
+    }
+    let Some(&leading) = one.last() else {
+        return one;
+    };
+    one.into_iter()
+        .map(|e| closed(g, g.div(e, leading)))
+        .collect()
+}
+
+/// Quotient and rest of polynomials.
+fn divided(g: &Graph, one: &[Expr], by: &[Expr]) -> (Polynomial, Polynomial) {
+    let Some(&leading) = by.last() else {
+        return (Vec::new(), one.to_vec());
+    };
+    let mut rest = one.to_vec();
+    let mut quotient = vec![g.zero(); (one.len() + 1).saturating_sub(by.len())];
+    while rest.len() >= by.len() {
+        let Some(highest) = rest.pop() else {
+            break;
+        };
+        let factor = closed(g, g.div(highest, leading));
+        let shift = rest.len() + 1 - by.len();
+        quotient[shift] = factor;
+        for (k, &e) in by.iter().enumerate().take(by.len() - 1) {
+            let own = g.sub(rest[shift + k], g.mul(&[factor, e]));
+            rest[shift + k] = closed(g, own);
+        }
+    }
+    (quotient, trimmed(g, rest))
 }
 
 /// Whether only even powers occur.

@@ -24,7 +24,7 @@ use chetaev_stability::descriptor::Descriptor;
 use chetaev_stability::eigenvalues::{as_known, distinct, modes, Complex, Known};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
-use chetaev_stability::hurwitz::Ranges;
+use chetaev_stability::hurwitz::{Ranges, Region};
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::parts::Parts;
 use chetaev_stability::question::{parameter_of_motion, values_at, values_but, Question};
@@ -267,10 +267,15 @@ fn in_symbols(
                     .and_then(|r| question.ranges(&system.graph, &r.low, &r.high))
                     .map(|found| found.joined(&|root| question.is_unstable_at(&system.graph, root)))
                     .zip(range.as_ref())
-                    .map(|(found, r)| found.cut_at(&question.real_ends(&about, &r.low, &r.high)));
-                let regions = ranges.iter().flat_map(|found: &Ranges| &found.regions);
-                let absent = regions.map(|own| question.is_absent(&about, &own.sample));
-                let absent = absent.collect();
+                    .map(|(found, r)| {
+                        found.cut_at(&question.ends_of_motion(&about, &r.low, &r.high))
+                    })
+                    .map(|found| found.without(&|root| question.is_absent_in(&about, root)));
+                let is_absent = |own: &Region| question.is_absent(&about, &own.sample);
+                let (ranges, absent) = match ranges.map(|own| with_absence(own, &is_absent)) {
+                    Some((ranges, absent)) => (Some(ranges), absent),
+                    None => (None, Vec::new()),
+                };
                 let rows = range.iter().flat_map(Range::rows);
                 let absent_rows = rows.map(|at| question.is_absent(&about, &at)).collect();
                 return Ok(Stability {
@@ -316,6 +321,24 @@ fn in_symbols(
             })
         }
     }
+}
+
+/// Ranges with whether there is no motion in each region, those without one in one where they follow each other.
+fn with_absence(mut own: Ranges, is_absent: &dyn Fn(&Region) -> bool) -> (Ranges, Vec<bool>) {
+    let mut regions: Vec<Region> = Vec::new();
+    let mut absent: Vec<bool> = Vec::new();
+    for region in std::mem::take(&mut own.regions) {
+        let is_absent = is_absent(&region);
+        match regions.last_mut() {
+            Some(last) if is_absent && absent.last() == Some(&true) => last.high = region.high,
+            _ => {
+                regions.push(region);
+                absent.push(is_absent);
+            }
+        }
+    }
+    own.regions = regions;
+    (own, absent)
 }
 
 /// Whether a motion has a number as its name, as those that were found, and none that the model states.

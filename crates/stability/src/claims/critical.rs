@@ -170,7 +170,7 @@ enum Change {
 
 impl Over<'_, '_> {
     fn change(&self, boundary: &Boundary) -> Change {
-        let place = |own: &Region| self.about.question.place(own.is_left);
+        let place = |own: &Region| self.about.question.place_in(own);
         let (root, regions) = (&boundary.root, &self.ranges.regions);
         let before = regions.iter().rfind(|r| r.high <= root.low);
         let before = before.filter(|own| self.is_admitted_below(&own.low, &root.low));
@@ -200,9 +200,9 @@ impl Over<'_, '_> {
             return same("unstable on both sides and there,".into());
         }
         // What is unstable on both sides may stand on the axis between, as a body at rest that no spin makes stable.
-        let there = self
-            .exact(boundary)
-            .and_then(|at| place_exactly(self.cx, self.about, (self.symbol, at)));
+        let is_smooth = !self.admitted.has_corner(self.about.graph(), root);
+        let exact = self.exact(boundary).filter(|_| is_smooth);
+        let there = exact.and_then(|at| place_exactly(self.cx, self.about, (self.symbol, at)));
         match there {
             Some(there) if there == beside => {
                 same(format!("{} on both sides and there,", word(beside)))
@@ -238,12 +238,12 @@ impl Over<'_, '_> {
             let Some(region) = region.filter(|_| self.is_admitted(sample.clone())) else {
                 continue;
             };
-            let place = self.about.question.place(region.is_left);
+            let place = self.about.question.place_in(region);
             if let Some((before, end)) = below.filter(|own| own.0 != place) {
                 let one = cuts.get(end).filter(|_| end + 1 == at);
                 let contains = |root: &&&Root| {
                     let found = self.admitted.contains_root(g, root, &self.functions);
-                    found != Some(false)
+                    found != Some(false) && !self.admitted.has_corner(g, root)
                 };
                 // What happens at a value that is admitted was said of it.
                 if one.filter(contains).is_none() {

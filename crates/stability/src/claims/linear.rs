@@ -44,7 +44,7 @@ impl Statement for Linear {
     }
 
     fn further(&self, about: &About<'_>) -> Vec<Expr> {
-        match about.question.place(true) {
+        match about.question.place_of_left() {
             Place::OnAxis => where_kernels_grow(about.graph(), &about.question),
             _ => Vec::new(),
         }

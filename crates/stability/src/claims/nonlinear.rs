@@ -56,7 +56,7 @@ impl Statement for Nonlinear {
 
     fn further(&self, about: &About<'_>) -> Vec<Expr> {
         // Where all eigenvalues lie left of the axis nothing else is needed.
-        match about.question.place(true) {
+        match about.question.place_of_left() {
             Place::Left => Vec::new(),
             _ => METHODS
                 .iter()

@@ -584,3 +584,72 @@ over = "p"
     );
     assert_eq!(case.said("stability.asymptotic", "s"), "-1 < p < 1");
 }
+
+/// Where the interval of a root ends the motion is one all the same, and what holds inside need not hold there: x'' = −x' − √p x + x², x'' = −√p x + x³ and
+/// x'' = −x − √p x' + x² x' are unstable at p = 0, x'' = −x − √p x' is not damped there, and x'' = −x', y'' = … of `(2 − √p)` resonates.
+#[test]
+fn the_end_of_a_root_is_a_value_like_others() {
+    let still = "-y' - y";
+    let of = |assumed: &str, force: &str| damped(assumed, "0", [force, still]);
+    let case = of("\"p >= 0\"", "-x' - sqrt(p) x + x^2");
+    assert_eq!(case.said("stability.asymptotic", "s"), "p > 0");
+    assert_eq!(case.said("stability.nonlinear", "s"), "p > 0");
+    let case = of("\"p >= 0\"", "-sqrt(p) x + x^3");
+    assert_eq!(case.said("stability.linear", "s"), "p > 0");
+    assert_ne!(case.said("stability.nonlinear", "s"), "proved");
+    let case = of("\"p >= 0\"", "-x + x' x^2 - sqrt(p) x'");
+    assert_eq!(case.said("stability.asymptotic", "s"), "p > 0");
+    assert_eq!(case.said("stability.nonlinear", "s"), "p > 0");
+    // Values at the other end of an interval are not lost.
+    let case = of("\"p >= 0\", \"p <= 1\"", "-x - (2 - sqrt(1 - p)) x'");
+    assert_eq!(case.said("stability.asymptotic", "s"), "proved");
+    let case = of(
+        "\"p >= 0\", \"p <= 1\"",
+        "-x - (2 p - 1 + sqrt(1 - p)/1000) x'",
+    );
+    let said = case.said("stability.asymptotic", "s");
+    assert!(said.ends_with("< p <= 1"), "{said}");
+}
+
+/// x'' = −(1 + p) x, y'' = −y − 3 (2 − √p) x has a Jordan block at p = 0 alone.
+#[test]
+fn a_resonance_at_the_end_of_a_root() {
+    let case = damped("\"p >= 0\"", "0", ["-(1 + p) x", "-y - 3 (2 - sqrt(p)) x"]);
+    assert_eq!(case.said("stability.linear", "s"), "p > 0");
+}
+
+/// At a corner of the forces along the motion nothing is said, and the verdict names it: x'' = −x' − |x − p| x at x = 0.
+#[test]
+fn at_a_corner_nothing_is_said() {
+    let case = damped("", "0", ["-x' - (1 + abs(x - p)) x", "-y' - y"]);
+    let verdict = case.verdict("stability.asymptotic", "s");
+    assert_eq!(verdict.word(), "conditional", "{}", verdict.detail());
+    assert!(
+        verdict.detail().contains("nothing is said at p = 0"),
+        "{}",
+        verdict.detail()
+    );
+}
+
+/// λ² + √p λ + 2 and λ² + 1 − √p: a pair on the axis for p < 1, whose factor is found though the root stands in both.
+#[test]
+fn pairs_on_the_axis_are_found_beside_roots_of_the_parameter() {
+    let roots: [(&str, fn(f64) -> f64); 4] = [
+        ("sqrt(p)", f64::sqrt),
+        ("abs(p)", f64::abs),
+        ("sqrt(1 + p)", |p| (1.0 + p).sqrt()),
+        ("sqrt(1 + cos(p))", |p| (1.0 + p.cos()).sqrt()),
+    ];
+    for (root, value) in roots {
+        let force = format!("-{root} x' - 2 x");
+        let other = format!("-(1 - {root}) y");
+        let case = damped("\"p >= 0\"", "0", [&force, &other]);
+        let linear = case.linear(&case.system.steady[0], "p").unwrap();
+        let found = case.ranges(&linear, "p", 0, 3);
+        for own in &found.regions {
+            assert!(own.is_decided, "{root}: {own:?}");
+            let is_left = value(own.sample.to_f64().value()) < 1.0;
+            assert_eq!(own.is_left, is_left, "{root}: {own:?}");
+        }
+    }
+}

@@ -224,7 +224,7 @@ fn changes(own: &Stability) -> Vec<String> {
     let (Some(range), Some(ranges)) = (&own.range, &own.ranges) else {
         return Vec::new();
     };
-    let kind = |region: Option<&Region>| region.map(|own| own.is_left);
+    let kind = |region: Option<&Region>| region.map(|own| (own.is_left, own.is_decided));
     let text = |root: &Root| {
         let before = kind(ranges.regions.iter().rfind(|own| own.high <= root.low));
         let after = kind(ranges.regions.iter().find(|own| own.low >= root.high));

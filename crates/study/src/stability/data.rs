@@ -162,11 +162,12 @@ impl Stability {
                 None => Value::Null,
                 Some(ranges) => {
                     let region = |(r, is_absent): (&Region, &bool)| {
-                        let place = match self.question.place(r.is_left) {
+                        let place = match self.question.place_in(r) {
                             _ if *is_absent => "no motion",
                             Place::Left => "asymptotic",
                             Place::OnAxis => "spectral",
-                            Place::Right | Place::NotLeft => "unstable",
+                            Place::Right => "unstable",
+                            Place::NotLeft => "undecided",
                         };
                         let mut found = json!({"from": r.low.to_f64().value(), "to": r.high.to_f64().value(), "stability": place});
                         if place == "spectral" {

@@ -15,12 +15,12 @@ use chetaev_stability::eigenvalues::{eigenvalues, zeros_of, Complex};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::guess::near;
 use chetaev_stability::hurwitz::determinants;
-use chetaev_stability::question::{values_but_these, Question};
+use chetaev_stability::question::{values_but_these, Place, Question};
 use chetaev_stability::reduction::Speeds;
 use chetaev_stability::steady_set::steady_set;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::parallel::on_threads;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use serde_json::{json, Value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -305,17 +305,37 @@ impl Grid<'_> {
 
     fn sampled(&self, tell: &mut dyn FnMut(f64)) -> (Vec<f64>, Vec<Kind>) {
         let one = |row: usize| -> Vec<(f64, Kind)> {
-            let places = (0..=self.side).map(|column| self.place(column as f64, row as f64));
-            let found = places.map(|place| (place, self.rightmost(place)));
             let growth = |own: Option<(Complex<f64>, f64)>| own.map_or(f64::NAN, |own| own.0.re);
-            found
-                .map(|(place, own)| (growth(own), self.kind(place, own)))
-                .collect()
+            let found = (0..=self.side).map(|column| {
+                let place = self.place(column as f64, row as f64);
+                let own = self.rightmost(place);
+                let is_near = own.is_some_and(|(l, size)| l.re.abs() <= ON_AXIS * size);
+                let exact = || self.exact_kind(column, row);
+                let exact = is_near.then(exact).flatten();
+                (growth(own), exact.unwrap_or_else(|| self.kind(place, own)))
+            });
+            found.collect()
         };
         let rows = self.side + 1;
         let mut tell = |row: usize| tell(row as f64 / rows as f64);
         let found = on_threads(self.threads, rows, one, &mut tell);
         found.into_iter().flatten().unzip()
+    }
+
+    /// What the motion is at a place of the grid where an eigenvalue is near the axis: on which side of it rounding does not say.
+    fn exact_kind(&self, column: usize, row: usize) -> Option<Kind> {
+        let own = self.ranges.iter().zip([column, row]);
+        let values = own.map(|(range, at)| {
+            let part = Rational::from(at) / Rational::from(self.side);
+            let value = &range.low + (&range.high - &range.low) * part;
+            (self.g.symbol_expr(range.symbol), self.g.number(value))
+        });
+        let values: Vec<(Expr, Expr)> = values.collect();
+        match self.question.place_with(self.g, &values)? {
+            Place::Left | Place::OnAxis => Some(Kind::Stable),
+            Place::Right => Some(Kind::Unstable),
+            Place::NotLeft => None,
+        }
     }
 
     /// The place of the boundary on an edge whose ends differ, with what passes there and the function that vanishes.

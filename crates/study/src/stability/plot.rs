@@ -32,7 +32,8 @@ impl Stability {
         let mut inside = String::new();
         let regions = self.ranges.iter().flat_map(|own| &own.regions);
         for (region, is_absent) in regions.zip(&self.absent) {
-            if *is_absent || self.question.place(region.is_left) == Place::Right {
+            let place = self.question.place_in(region);
+            if *is_absent || matches!(place, Place::Right | Place::NotLeft) {
                 continue;
             }
             let (a, above) = axes.at(region.low.to_f64().value().max(low), axes.y.1);

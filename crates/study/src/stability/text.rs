@@ -368,12 +368,13 @@ impl Stability {
             }
             Some(ranges) => {
                 for (region, is_absent) in ranges.regions.iter().zip(&self.absent) {
-                    let place = match self.question.place(region.is_left) {
-                        _ if *is_absent => "no such motion: what it states is not real",
+                    let place = match self.question.place_in(region) {
+                        _ if *is_absent => "no such motion: what it states is not real, or not what the model assumes",
                         Place::Left if self.question.linear.family > 0 => "stable: all eigenvalues but the zeros of the family are left of the axis",
                         Place::Left => "stable: all eigenvalues are left of the axis",
                         Place::OnAxis => self.on_axis(),
-                        Place::Right | Place::NotLeft => "unstable: an eigenvalue is right of the axis",
+                        Place::Right => "unstable: an eigenvalue is right of the axis",
+                        Place::NotLeft => "not decided: two eigenvalues are opposite, or one is zero, for all values",
                     };
                     let _ = writeln!(
                         text,

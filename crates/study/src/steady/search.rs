@@ -14,6 +14,7 @@ use crate::follow::{initial, of_motion, FollowError};
 use crate::options::StudyOptions;
 use crate::stability::motions;
 use chetaev_mechanics::sample::Generator;
+use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{ConstraintKind, Prepared, Selection, System};
 use chetaev_model::Model;
 use chetaev_orbits::branch::Point;
@@ -68,11 +69,11 @@ pub struct Near {
 
 impl Near {
     /// Whether another place is this one, or one of its kind that nobody named.
-    fn covers(&self, other: &Near) -> bool {
+    fn covers(&self, other: &Near, units: &Units) -> bool {
         let is_kind = other.singular.is_some() || other.family > 0;
         let is_of_kind = self.singular == other.singular && self.family == other.family;
-        is_same(&self.point.unknowns, &other.point.unknowns)
-            || (other.from.is_none() && is_kind && is_of_kind)
+        let [own, of_other] = [self, other].map(|near| units.packed(&near.point.unknowns));
+        is_same(&own, &of_other) || (other.from.is_none() && is_kind && is_of_kind)
     }
 }
 
@@ -170,6 +171,8 @@ const ADMISSIBLE: f64 = 1e-9;
 /// A part of the gradients of constraints below this is none, as steps to where they depend on each other become slow; a mass matrix is quadratic in
 /// such a distance.
 const AT_SINGULAR: f64 = 1e-4;
+/// Sides of an assumption that differ by less, in parts of the larger one, are equal to rounding.
+const ROUNDING: f64 = 1e-9;
 /// A slope of a velocity beyond this may be near a pole, and one beyond its square is.
 const STEEP: f64 = 1e3;
 
@@ -229,17 +232,44 @@ impl Charts<'_> {
                 continue;
             };
             turned(flow, &mut point.unknowns);
+            if !self.is_assumed(flow, &point.unknowns) {
+                continue;
+            }
             let own = Near {
                 singular: singular(margins, &usual),
                 from: from.clone(),
                 family,
                 point,
             };
-            if !found.iter().any(|known| known.covers(&own)) {
+            if !found.iter().any(|known| known.covers(&own, units)) {
                 found.push(own);
             }
         }
         Ok(found)
+    }
+
+    /// Whether nothing that the model assumes fails at a state by more than rounding.
+    fn is_assumed(&self, flow: &Flow, z: &[f64]) -> bool {
+        let g = &self.system.graph;
+        let place = self.at_rest(flow, z);
+        let value = |s: Symbol| {
+            let own = place.iter().find(|own| own.0 == s).map(|own| own.1);
+            own.or_else(|| {
+                flow.parameters
+                    .iter()
+                    .find(|own| own.0 == s)
+                    .map(|own| own.1)
+            })
+        };
+        self.system.assumptions.iter().all(|own| {
+            let sides = [own.left, own.right].map(|e| self.system.with_definitions(e));
+            let Ok(found) = g.evaluate_f64(&sides, &value) else {
+                return true;
+            };
+            // An end of what is assumed may be met to rounding.
+            let slack = ROUNDING * found.iter().map(|x| x.abs()).fold(0.0, f64::max);
+            own.relation == Relation::NotEqual || found[0] <= found[1] + slack
+        })
     }
 
     /// What was found with its margins; where the velocities have a pole, what is found near it by others. `None` where that is nothing.
