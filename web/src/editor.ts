@@ -32,8 +32,8 @@ const FUNCTIONS = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh a
 
 /** What stands at the beginning of a line: the keys and sections of docs/model-file.md. */
 const KEYS = ("name description source history coordinates assumptions parameters define lagrangian kinetic potential forces constraints " +
-  "quasi_velocities controls initial simulation integrals expect drawing steady events masses particles body joint contact include " +
-  "t_end tolerance output method step value unit range view kind at color").split(" ");
+  "quasi_velocities controls initial simulation integrals expect drawing steady events masses particles frames bodies joints contacts sensors gravity include " +
+  "t_end tolerance output method step value unit range view kind at color shape mass radius length inertia center parent child type axis body").split(" ");
 
 const colors = HighlightStyle.define([
   { tag: tags.comment, color: "var(--soft)", fontStyle: "italic" },

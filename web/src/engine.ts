@@ -2,6 +2,7 @@
 
 import { XzReadableStream } from "xz-decompress";
 import type { Asking } from "./ask";
+import type { Kind } from "./compose";
 import type { Question } from "./worker";
 
 /** Why there is no answer. */
@@ -11,7 +12,7 @@ export class NoAnswer extends Error {
 
 export interface Known {
   version: string;
-  vocabulary: { forms: { name: string; title: string }[]; claims: { id: string; group: string }[]; questions: Asking[] };
+  vocabulary: { forms: { name: string; title: string }[]; claims: { id: string; group: string }[]; questions: Asking[]; solids: Kind[]; joints: Kind[]; contacts: Kind[] };
   gallery: { name: string; title: string; files: string[] }[];
   texts: Record<string, string>;
 }

@@ -2,6 +2,7 @@
 
 import "./style.css";
 import { Ask, type Offered } from "./ask";
+import { Assembly } from "./assembly";
 import { Editor, fixName, type Name, type Problem } from "./editor";
 import { Engine, NoAnswer, type Known } from "./engine";
 import { Gallery } from "./gallery";
@@ -54,6 +55,7 @@ class Playground {
   private readonly sliders = new Sliders((s, t) => this.drag(s, t), (s, t) => this.release(s, t));
   private readonly questions = new Ask(
     this.engine, () => ({ path: this.path, text: this.editor.text, name: this.shownModel }), (content, name, type) => this.save(content, name, type));
+  private readonly assembly = new Assembly(() => this.editor.text, (text) => this.assemble(text));
   private readonly editor: Editor;
   private known: Known | null = null;
   private gallery: Gallery | null = null;
@@ -83,6 +85,7 @@ class Playground {
     const ids = this.known.vocabulary.claims.map((claim) => claim.id);
     this.editor.know(null, ids);
     this.questions.know(this.known);
+    this.assembly.know(this.known);
     this.gallery = new Gallery(this.engine, this.known, (name) => this.take(name), () => { if (this.engine.busy) this.engine.end(); });
     await this.openAddress();
     void this.update();
@@ -112,6 +115,13 @@ class Playground {
     this.questions.forget();
   }
 
+  /** The model of the form. */
+  private assemble(text: string) {
+    this.path = NONE;
+    this.editor.replace(text);
+    history.replaceState(null, "", location.pathname);
+  }
+
   // What a person does.
 
   private edited() {
@@ -120,6 +130,7 @@ class Playground {
     this.generation++;
     this.report.stale = true;
     this.questions.edited();
+    this.assembly.compare();
     this.timer = window.setTimeout(() => void this.update(), PAUSE);
   }
 
@@ -260,6 +271,8 @@ class Playground {
     if (checked.sliders && !this.sliders.isHeld) this.sliders.show(checked.sliders);
     this.problems = checked.diagnostics;
     this.listProblems();
+    const coordinates = checked.names?.filter(({ kind }) => kind === "coordinate");
+    if (coordinates) this.assembly.offer(coordinates.map(({ name }) => name));
     const errors = checked.diagnostics.filter((problem) => problem.severity === "error").length;
     if (checked.hasErrors) this.say(errors === 1 ? "One problem; the report is of the text before." : `${errors} problems; the report is of the text before.`);
   }
@@ -274,7 +287,10 @@ class Playground {
       place.type = "button";
       place.className = "plain";
       place.textContent = `${problem.severity}, line ${problem.line}`;
-      place.addEventListener("click", () => this.editor.go(problem.from));
+      place.addEventListener("click", () => {
+        this.write("text");
+        this.editor.go(problem.from);
+      });
       row.append(` ${problem.message}`);
       for (const hint of problem.hints) row.appendChild(document.createElement("small")).textContent = hint;
       const { fix } = problem;
@@ -313,6 +329,14 @@ class Playground {
     get("show-report").setAttribute("aria-pressed", String(which === "report"));
   }
 
+  /** How the model is written, on the left. */
+  private write(how: "text" | "form") {
+    get("model").dataset.view = how;
+    get("view-text").setAttribute("aria-pressed", String(how === "text"));
+    get("view-form").setAttribute("aria-pressed", String(how === "form"));
+    if (how === "form") this.assembly.open();
+  }
+
   /** What is on the right: the report, or the questions on steady motions. */
   private view(which: "page" | "ask") {
     get("report").dataset.view = which;
@@ -327,6 +351,8 @@ class Playground {
     get("go").addEventListener("click", () => void this.go());
     get("show-model").addEventListener("click", () => this.select("model"));
     get("show-report").addEventListener("click", () => this.select("report"));
+    get("view-text").addEventListener("click", () => this.write("text"));
+    get("view-form").addEventListener("click", () => this.write("form"));
     get("view-page").addEventListener("click", () => this.view("page"));
     get("view-ask").addEventListener("click", () => this.view("ask"));
     get("gallery-button").addEventListener("click", () => this.openGallery());
@@ -357,6 +383,7 @@ class Playground {
       void this.read(file);
     });
     this.select("model");
+    this.write("text");
     this.view("page");
   }
 

@@ -78,9 +78,9 @@ fn cos_kernel(y: f64, tail: f64) -> f64 {
     w + (((1.0 - w) - half) + (z * r - y * tail))
 }
 
-/// Sine and cosine for every argument.
+/// Sine and cosine for every argument, with the same bits on every platform.
 pub(crate) fn sin_cos_library(x: f64) -> (f64, f64) {
-    (x.sin(), x.cos())
+    libm::sincos(x)
 }
 
 #[cfg(test)]

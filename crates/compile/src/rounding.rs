@@ -232,8 +232,8 @@ fn binary(operation: Binary, a: Rounded, b: Rounded) -> Rounded {
         Binary::Sub => a - b,
         Binary::Mul => a * b,
         Binary::Div => a / b,
-        Binary::Pow => of_two(f64::powf),
-        Binary::Atan2 => of_two(f64::atan2),
+        Binary::Pow => of_two(libm::pow),
+        Binary::Atan2 => of_two(libm::atan2),
     }
 }
 

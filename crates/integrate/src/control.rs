@@ -4,6 +4,7 @@ use crate::compensated::Time;
 use crate::method::MethodCard;
 use crate::problem::{EvaluationFailure, System};
 use crate::IntegrateError;
+use libm::pow;
 
 /// Tolerances of the local error.
 ///
@@ -169,8 +170,8 @@ impl Controller {
     /// Factor for the next step after one with this error was accepted.
     pub fn accepted(&mut self, error: f64) -> f64 {
         let raw = SAFETY
-            * error.max(1e-10).powf(-self.alpha)
-            * self.previous_error.max(ERROR_FLOOR).powf(self.beta);
+            * pow(error.max(1e-10), -self.alpha)
+            * pow(self.previous_error.max(ERROR_FLOOR), self.beta);
         let most = if self.after_rejection { 1.0 } else { GROW };
         self.previous_error = error.max(ERROR_FLOOR);
         self.after_rejection = false;
@@ -181,7 +182,7 @@ impl Controller {
     pub fn rejected(&mut self, error: f64) -> f64 {
         self.after_rejection = true;
         // One power of the error estimate, without memory: the past step says nothing about this failure.
-        let raw = SAFETY * error.powf(-self.alpha / 0.7);
+        let raw = SAFETY * pow(error, -self.alpha / 0.7);
         if raw.is_finite() {
             raw.clamp(SHRINK, SAFETY)
         } else {
@@ -242,7 +243,7 @@ pub fn initial_step(
     let h1 = if steepest <= 1e-15 {
         (h0 * 1e-3).max(SHORT * span)
     } else {
-        unit * (0.01 / steepest).powf(1.0 / q)
+        unit * pow(0.01 / steepest, 1.0 / q)
     };
     (100.0 * h0).min(h1).min(span)
 }

@@ -76,7 +76,7 @@ pub fn global_error(
     let ratio = match options.step {
         StepSize::Fixed(h) => {
             options.step = StepSize::Fixed(h / 2.0);
-            f64::from(options.method.order(&options.error)).exp2()
+            libm::exp2(f64::from(options.method.order(&options.error)))
         }
         StepSize::Adaptive { .. } => {
             let ratio = tolerance_ratio(&options, y0);

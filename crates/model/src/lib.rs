@@ -25,6 +25,7 @@ mod toml;
 pub mod units;
 mod where_clause;
 
+pub use bodies::kinds;
 pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};
 pub use diagnostic::{Diagnostic, Diagnostics, Suggestion};

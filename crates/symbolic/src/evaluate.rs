@@ -115,7 +115,7 @@ fn evaluate_node(node: &Node, scalar: &FxHashMap<Expr, f64>) -> f64 {
             function,
             arguments,
         } => match arguments[..] {
-            [y, x] => scalar[&y].atan2(scalar[&x]),
+            [y, x] => libm::atan2(scalar[&y], scalar[&x]),
             [x] => apply(*function, scalar[&x]),
             _ => f64::NAN,
         },
@@ -132,31 +132,31 @@ pub fn power(base: f64, exponent: f64) -> f64 {
     } else if exponent == -0.5 {
         1.0 / base.sqrt()
     } else {
-        base.powf(exponent)
+        libm::pow(base, exponent)
     }
 }
 
-/// A function of one argument in double precision.
+/// A function of one argument in double precision, with the same bits on every platform.
 pub fn apply(function: Function, x: f64) -> f64 {
     use Function::*;
     match function {
-        Sin => x.sin(),
-        Cos => x.cos(),
-        Tan => x.tan(),
-        Cot => 1.0 / x.tan(),
-        Sec => 1.0 / x.cos(),
-        Csc => 1.0 / x.sin(),
-        Asin => x.asin(),
-        Acos => x.acos(),
-        Atan => x.atan(),
-        Sinh => x.sinh(),
-        Cosh => x.cosh(),
-        Tanh => x.tanh(),
-        Asinh => x.asinh(),
-        Acosh => x.acosh(),
-        Atanh => x.atanh(),
-        Exp => x.exp(),
-        Log => x.ln(),
+        Sin => libm::sin(x),
+        Cos => libm::cos(x),
+        Tan => libm::tan(x),
+        Cot => 1.0 / libm::tan(x),
+        Sec => 1.0 / libm::cos(x),
+        Csc => 1.0 / libm::sin(x),
+        Asin => libm::asin(x),
+        Acos => libm::acos(x),
+        Atan => libm::atan(x),
+        Sinh => libm::sinh(x),
+        Cosh => libm::cosh(x),
+        Tanh => libm::tanh(x),
+        Asinh => libm::asinh(x),
+        Acosh => libm::acosh(x),
+        Atanh => libm::atanh(x),
+        Exp => libm::exp(x),
+        Log => libm::log(x),
         Abs => x.abs(),
         Sign => {
             if x > 0.0 {

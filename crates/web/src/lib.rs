@@ -16,6 +16,7 @@ mod refusal;
 mod shelf;
 
 use chetaev::mechanics::{formulation, Context, Prover, System, FORMULATIONS};
+use chetaev::model::kinds::{self, ObjectKind};
 use chetaev::study::written::{self, Notation};
 use chetaev::study::{
     functional, interruptible, registry, study_telling, ClaimSelection, Decided, Hooks,
@@ -55,7 +56,8 @@ pub fn gallery_text(folder: &str, file: &str) -> String {
     shelf::text(folder, file).unwrap_or_default().to_owned()
 }
 
-/// The forms of the equations of motion, the claims and the questions of [`ask`], as JSON, for menus and completion.
+/// The forms of the equations of motion, the claims, the questions of [`ask`], and the kinds of solids, joints and contacts, as JSON, for
+/// menus and completion.
 #[wasm_bindgen]
 pub fn vocabulary() -> String {
     let forms = FORMULATIONS.iter().map(|f| {
@@ -67,7 +69,16 @@ pub fn vocabulary() -> String {
         .claims()
         .iter()
         .map(|claim| json!({"id": claim.id(), "group": claim.group().word()}));
+    let objects = |own: Vec<ObjectKind>| {
+        let told = own.into_iter().map(|kind| {
+            json!({"word": kind.word, "says": kind.says, "keys": kind.keys, "usual": kind.usual})
+        });
+        told.collect::<Vec<_>>()
+    };
     json!({
+        "solids": objects(kinds::solids()),
+        "joints": objects(kinds::joints()),
+        "contacts": objects(kinds::contacts()),
         "forms": forms.collect::<Vec<_>>(),
         "claims": claims.collect::<Vec<_>>(),
         "questions": questions::vocabulary(),

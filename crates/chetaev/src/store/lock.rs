@@ -8,6 +8,10 @@ use std::path::Path;
 const LOCK: &str = "sweep.lock";
 
 /// What came of the attempt to lock.
+#[cfg_attr(
+    not(any(unix, windows)),
+    allow(dead_code, reason = "without files there are no locks to be had")
+)]
 enum Locked {
     Alone(File),
     Taken,

@@ -6,6 +6,7 @@
 use super::assembler::Width;
 use super::code::SCRATCH_CELL;
 use super::dense;
+use crate::kernel::sin_cos_library;
 use crate::program::Factorization;
 use chetaev_symbolic::evaluate::apply;
 use chetaev_symbolic::Function;
@@ -113,7 +114,7 @@ unsafe extern "sysv64" fn sin_cos(cells: *mut f64, detail: u64) -> u64 {
     // SAFETY: the same condition.
     unsafe {
         repair(cells, detail, |x, sin, cos| {
-            (*sin, *cos) = (x.sin(), x.cos())
+            (*sin, *cos) = sin_cos_library(x)
         })
     }
 }
@@ -122,7 +123,7 @@ unsafe extern "sysv64" fn sin_cos(cells: *mut f64, detail: u64) -> u64 {
 /// As [`repair`].
 unsafe extern "sysv64" fn log(cells: *mut f64, detail: u64) -> u64 {
     // SAFETY: the same condition.
-    unsafe { repair(cells, detail, |x, log, _| *log = x.ln()) }
+    unsafe { repair(cells, detail, |x, log, _| *log = libm::log(x)) }
 }
 
 /// # Safety
@@ -153,14 +154,14 @@ unsafe fn of_two(cells: *mut f64, detail: u64, f: impl Fn(f64, f64) -> f64) -> u
 /// As [`of_two`].
 unsafe extern "sysv64" fn pow(cells: *mut f64, detail: u64) -> u64 {
     // SAFETY: the same condition.
-    unsafe { of_two(cells, detail, f64::powf) }
+    unsafe { of_two(cells, detail, libm::pow) }
 }
 
 /// # Safety
 /// As [`of_two`].
 unsafe extern "sysv64" fn atan2(cells: *mut f64, detail: u64) -> u64 {
     // SAFETY: the same condition.
-    unsafe { of_two(cells, detail, f64::atan2) }
+    unsafe { of_two(cells, detail, libm::atan2) }
 }
 
 /// # Safety

@@ -59,7 +59,7 @@ fn order_for(tolerance: f64) -> usize {
 
 /// The order p of least cost p (p + c) per step for a relative tolerance, without bounds.
 pub(crate) fn order_by(tolerance: f64, c: f64) -> usize {
-    let logarithm = -tolerance.ln();
+    let logarithm = -libm::log(tolerance);
     let surplus = logarithm - c;
     let order = (1.0 + (surplus + (surplus * surplus + 8.0 * logarithm * c).sqrt()) / 4.0).ceil();
     // A tolerance that is not a number gives the lowest order.
@@ -90,7 +90,7 @@ pub(crate) fn radius_of(
         }
         // The logarithm of the step.
         let allowed = if seen == 0 { -2.0 } else { 0.0 };
-        let step = (allowed - norm.ln()) / j as f64;
+        let step = (allowed - libm::log(norm)) / j as f64;
         if step < radius {
             (radius, limiting) = (step, worst);
         }
@@ -99,7 +99,7 @@ pub(crate) fn radius_of(
             break;
         }
     }
-    ((radius - 0.7 / (order as f64 - 1.0)).exp(), limiting)
+    (libm::exp(radius - 0.7 / (order as f64 - 1.0)), limiting)
 }
 
 /// Components whose sums are formed side by side, in registers.

@@ -6,7 +6,7 @@
 //!
 //! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
 //! energies, `touching`, `closing`, `couplings` and `ropes` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `ball_contacts` and
-//! `tangency` those on surfaces that are no planes, which `grounds` reads; `shapes`, `joints`, `contacts` and `surfaces` are registries.
+//! `tangency` those on surfaces that are no planes, which `grounds` reads; `shapes`, `joints`, `contacts` and `surfaces` are registries, of which `kinds` tells forms and menus.
 
 mod algebra;
 mod ball_contacts;
@@ -19,6 +19,7 @@ mod forces;
 mod grounds;
 mod joints;
 mod keeping;
+pub mod kinds;
 mod kinematics;
 mod look;
 mod lowering;

@@ -16,7 +16,7 @@ impl Nodes {
     pub(super) fn gauss(s: usize) -> Nodes {
         let (mut places, mut weights) = (Vec::new(), Vec::new());
         for k in (0..s).rev() {
-            let guess = (std::f64::consts::PI * (k as f64 + 0.75) / (s as f64 + 0.5)).cos();
+            let guess = libm::cos(std::f64::consts::PI * (k as f64 + 0.75) / (s as f64 + 0.5));
             let (x, slope) = root(s, guess);
             places.push(0.5 * (1.0 + x));
             weights.push(1.0 / ((1.0 - x * x) * slope * slope));

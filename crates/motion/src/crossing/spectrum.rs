@@ -48,9 +48,9 @@ fn rotate(a: &mut [f64], v: &mut [f64], n: usize, (p, q, floor): (usize, usize, 
         return false;
     }
     let theta = (aqq - app) / (2.0 * apq);
-    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+    let t = theta.signum() / (theta.abs() + libm::hypot(theta, 1.0));
     let t = if theta == 0.0 { 1.0 } else { t };
-    let c = 1.0 / t.hypot(1.0);
+    let c = 1.0 / libm::hypot(t, 1.0);
     let s = t * c;
     for k in 0..n {
         let (x, y) = (a[k * n + p], a[k * n + q]);

@@ -4,6 +4,7 @@ use super::kind::{no_slip_sideways, Contact, Statement};
 
 pub(super) const BLADE: Contact = Contact {
     word: "blade",
+    says: "no motion across: a skate, a sled, a wheel whose own turning does not matter",
     statements: |a, _| {
         vec![Statement {
             suffix: "",

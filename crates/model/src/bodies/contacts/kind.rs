@@ -17,6 +17,8 @@ pub(crate) struct Statement {
 pub(crate) struct Contact {
     /// Its word in the model file.
     pub(crate) word: &'static str,
+    /// What it is, for menus.
+    pub(crate) says: &'static str,
     /// What it says; with the angle that the user states, for rollers: from the axle towards the rim.
     pub(crate) statements: fn(&Algebra, Expr) -> Vec<Statement>,
 }

@@ -6,6 +6,7 @@ use super::kind::{Contact, Statement};
 
 pub(super) const ROLLER: Contact = Contact {
     word: "roller",
+    says: "a wheel with rollers on its rim, at an angle to the axle",
     statements: |a, angle| {
         vec![Statement {
             suffix: "",

@@ -4,6 +4,7 @@ use super::kind::{Axes, Joint, Motion};
 
 pub(super) const CYLINDRICAL: Joint = Joint {
     word: "cylindrical",
+    says: "a slide that may turn: a length and an angle about one axis",
     axes: Axes::One,
     usual: "z",
     motions: |axes| {

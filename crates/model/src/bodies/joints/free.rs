@@ -4,6 +4,7 @@ use super::kind::{turns, Axes, Joint, Motion};
 
 pub(super) const FREE: Joint = Joint {
     word: "free",
+    says: "three lengths and three angles",
     axes: Axes::Sequence(3),
     usual: "zxy",
     motions: |axes| {

@@ -69,6 +69,8 @@ pub(crate) struct Direction {
 pub(crate) struct Joint {
     /// Its word in the model file.
     pub(crate) word: &'static str,
+    /// What it is, for menus.
+    pub(crate) says: &'static str,
     /// Which axes are stated.
     pub(crate) axes: Axes,
     /// The axes where none is stated; `up` stands for the vertical of a joint that lies flat.

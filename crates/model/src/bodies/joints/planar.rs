@@ -4,6 +4,7 @@ use super::kind::{Axes, Joint, Motion};
 
 pub(super) const PLANAR: Joint = Joint {
     word: "planar",
+    says: "two lengths, and an angle about the normal",
     axes: Axes::One,
     usual: "z",
     motions: |axes| {

@@ -4,6 +4,7 @@ use super::kind::{Axes, Joint, Motion};
 
 pub(super) const PRISMATIC: Joint = Joint {
     word: "prismatic",
+    says: "a slide: one length along an axis",
     axes: Axes::One,
     usual: "x",
     motions: |axes| {

@@ -4,6 +4,7 @@ use super::kind::{Axes, Joint, Motion};
 
 pub(super) const REVOLUTE: Joint = Joint {
     word: "revolute",
+    says: "a hinge: one angle about an axis",
     axes: Axes::One,
     usual: "z",
     motions: |axes| {

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const BALL: Shape = Shape {
     word: "ball",
+    says: "a full ball",
     sizes: &["radius"],
     axis: 2,
     density: "kg/m^3",

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const CONE: Shape = Shape {
     word: "cone",
+    says: "a full circular cone",
     sizes: &["radius", "length"],
     axis: 2,
     density: "kg/m^3",

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const BOX: Shape = Shape {
     word: "box",
+    says: "a full box",
     sizes: &["size"],
     axis: 2,
     density: "kg/m^3",

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const CYLINDER: Shape = Shape {
     word: "cylinder",
+    says: "a full cylinder",
     sizes: &["radius", "length"],
     axis: 2,
     density: "kg/m^3",

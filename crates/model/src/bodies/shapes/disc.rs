@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const DISC: Shape = Shape {
     word: "disc",
+    says: "a thin disc",
     sizes: &["radius"],
     axis: 1,
     density: "kg/m^2",

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const ELLIPSOID: Shape = Shape {
     word: "ellipsoid",
+    says: "a full ellipsoid",
     sizes: &["semiaxes"],
     axis: 2,
     density: "kg/m^3",

@@ -8,6 +8,8 @@ use crate::bodies::algebra::Algebra;
 pub(crate) struct Shape {
     /// Its word in the model file.
     pub(crate) word: &'static str,
+    /// What it is, for menus.
+    pub(crate) says: &'static str,
     /// The keys of its sizes; the last is a list of three lengths for a box.
     pub(crate) sizes: &'static [&'static str],
     /// The axis of revolution where none is stated: 0, 1, 2.

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const RING: Shape = Shape {
     word: "ring",
+    says: "a thin ring",
     sizes: &["radius"],
     axis: 1,
     density: "kg/m",

@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const ROD: Shape = Shape {
     word: "rod",
+    says: "a thin straight rod",
     sizes: &["length"],
     axis: 0,
     density: "kg/m",

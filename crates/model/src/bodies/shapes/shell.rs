@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const SHELL: Shape = Shape {
     word: "shell",
+    says: "a thin spherical shell",
     sizes: &["radius"],
     axis: 2,
     density: "kg/m^2",

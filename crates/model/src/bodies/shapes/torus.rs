@@ -4,6 +4,7 @@ use super::kind::{Look, Outline, Shape};
 
 pub(super) const TORUS: Shape = Shape {
     word: "torus",
+    says: "a full torus: a tyre",
     sizes: &["radius", "tube"],
     axis: 1,
     density: "kg/m^3",
