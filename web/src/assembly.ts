@@ -194,7 +194,7 @@ export class Assembly {
       const isSolid = Boolean(part.shape);
       return [
         name,
-        { name: "shape", label: "Shape", options: [["", "none: the inertia is stated"], ...kinds(this.kinds.solids)] },
+        { name: "shape", label: "Shape", options: [["", "none"], ...kinds(this.kinds.solids)] },
         { name: "mass", label: "Mass", hint: "kg" },
         ...keysOf(this.kinds.solids, part.shape),
         ...isSolid ? [{ name: "axis", label: "Axis of the shape", hint: "as usual" }] : [],

@@ -493,3 +493,82 @@ fn numbers_of_large_parts_that_cancel_have_all_digits() {
         assert!((a[1][0] + value).abs() < 1e-14 * value, "{a:?}");
     }
 }
+
+/// Two oscillators at rest over the parameter c.
+fn over_c(head: &str, forces: [&str; 2], place: &str) -> String {
+    format!(
+        "coordinates = [\"x\", \"y\"]\n{head}\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\n[forces]\nx = \"{}\"\ny = \"{}\"\n\
+         [steady.s]\nx = \"{place}\"\ny = 0\nover = \"c\"\n",
+        forces[0], forces[1]
+    )
+}
+
+/// Where eigenvalues are opposite for all values nothing is called unstable: λ² + √c λ + 2 and λ² + 1 − √c lie left of the axis and on it for c < 1.
+#[test]
+fn opposite_eigenvalues_are_no_instability() {
+    let text = over_c(
+        "parameters = { c = 0.5 }",
+        ["-sqrt(c) x' - 2 x", "-(1 - sqrt(c)) y"],
+        "0",
+    );
+    let own = found(
+        &text,
+        &Wanted {
+            over: Some("c=0:3"),
+            ..Wanted::default()
+        },
+    );
+    let data = own.json();
+    let places: Vec<&str> = data["regions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|region| region["stability"].as_str().unwrap())
+        .collect();
+    assert_eq!(places, ["spectral", "unstable"]);
+}
+
+/// A motion that the model excludes by an assumption, and one that is not real, is none: no boundary lies there, and its values are one region.
+#[test]
+fn what_is_assumed_bounds_the_regions() {
+    let wanted = Wanted {
+        over: Some("c=-1:4"),
+        ..Wanted::default()
+    };
+    // x = √(c (c − 2)) is not real between 0 and 2; the stiffness c − 1 would vanish there.
+    let unreal = over_c(
+        "parameters = { c = 3 }",
+        ["-(c - 1)^2 (x - sqrt(c (c - 2))) - x'", "-(c - 1) y - y'"],
+        "sqrt(c (c - 2))",
+    );
+    let text = found(&unreal, &wanted).text();
+    assert!(text.contains("0 < c < 2: no such motion"), "{text}");
+    assert!(!text.contains("c = 1:"), "{text}");
+    let assumed = over_c(
+        "parameters = { c = 3 }\nassumptions = [\"c > 2\"]",
+        ["-x - x'", "-(c - 1) y - y'"],
+        "0",
+    );
+    let text = found(&assumed, &wanted).text();
+    assert!(text.contains("-1 < c < 2: no such motion"), "{text}");
+    assert!(text.contains("2 < c < 4: stable"), "{text}");
+    assert!(!text.contains("c = 1:"), "{text}");
+}
+
+/// On the edge of a map where a pair lies on the axis for all values rounding makes no boundary: y'' = −q y' − y, x'' = −(p − 1/4) x' − x.
+#[test]
+fn the_axis_is_no_boundary_of_a_map() {
+    let text = "coordinates = [\"x\", \"y\"]\nparameters = { p = 0.5, q = 0.3 }\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\n[forces]\n\
+         x = \"-x'*(p - 1/4) - x*sqrt(p)\"\ny = \"-y'*sqrt(q) - y\"\n[steady.s]\nx = 0\ny = 0\n";
+    let wanted = Wanted {
+        over: Some("p=1/8:1,q=0:1"),
+        ..Wanted::default()
+    };
+    let map = map(&model(text), &wanted, &mut |_| {}).unwrap();
+    assert_eq!(map.curves.len(), 1, "{:?}", map.curves.len());
+    assert!(map.curves[0]
+        .points
+        .iter()
+        .all(|(p, _)| (p - 0.25).abs() < 1e-9));
+    assert!(map.kinds[..=map.side].contains(&Kind::Stable));
+}

@@ -190,3 +190,62 @@ x = 1
         assert_eq!(own.singular.is_some(), is_meeting, "{own:?}");
     }
 }
+
+/// All steady motions that are found exactly, by the values of their variables.
+fn all(text: &str) -> Vec<Vec<f64>> {
+    let loaded = load("all.toml", text, &BTreeMap::new(), &[]);
+    let Motions::All(set) = steady(&loaded.model.unwrap(), false).unwrap().motions else {
+        panic!("not all were found");
+    };
+    let value = |own: &chetaev_stability::steady_set::Value| match own {
+        chetaev_stability::steady_set::Value::Number { ball, .. } => ball.to_f64(),
+        other => panic!("{other:?}"),
+    };
+    let values = set.found.iter();
+    values
+        .map(|own| own.values.iter().map(value).collect())
+        .collect()
+}
+
+/// Roots are those of numbers that are not negative: x^(1/3) = x/4 at 0 and 8, and not at −8; x^(1/3) = −2 nowhere.
+#[test]
+fn roots_of_negative_numbers_are_no_states_of_rest() {
+    let of = |force: &str| {
+        format!(
+            "coordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\n[forces]\nx = \"{force}\"\n"
+        )
+    };
+    let found = all(&of("x^(1/3) - x/4"));
+    let at: Vec<f64> = found.iter().map(|own| own[0]).collect();
+    assert_eq!(at, [0.0, 8.0]);
+    assert!(all(&of("x^(1/3) + 2")).is_empty());
+}
+
+/// What is found in numbers keeps to what is assumed, and motions in small units are told apart: x = 1e-10, 2e-10 and 3e-10 times what makes
+/// (y − 1)(y − 2)(y − 3) = 0 in y = 10¹⁰ x, of which two are assumed.
+#[test]
+fn assumptions_and_units_of_motions_in_numbers() {
+    let text = r#"
+coordinates = ["x"]
+assumptions = ["x < 2.5e-10"]
+parameters = { a = 1e-10 }
+[lagrangian]
+T = "1/2 x'^2"
+[forces]
+x = "-a (exp(x/a) - exp(1)) (x/a - 2) (x/a - 3)"
+[initial]
+x = 1.2e-10
+"#;
+    let found = found(text);
+    let mut at: Vec<f64> = found
+        .found
+        .iter()
+        .map(|own| own.point.unknowns[0] * 1e10)
+        .collect();
+    at.sort_by(f64::total_cmp);
+    assert_eq!(at.len(), 2, "{at:?}");
+    assert!(
+        (at[0] - 1.0).abs() < 1e-8 && (at[1] - 2.0).abs() < 1e-8,
+        "{at:?}"
+    );
+}
