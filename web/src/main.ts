@@ -160,7 +160,7 @@ class Playground {
       try {
         const asked = { claims: "motion-only", coarse: true, tolerance: 1e-6 };
         const found = await this.engine.call<Studied>({ kind: "study", path: this.path, text, asked }, () => {}, 20);
-        if (this.dragging) this.report.move(found.page);
+        if (this.dragging) await this.report.move(found.page);
       } catch (problem) {
         if (problem instanceof NoAnswer && problem.reason !== "ended") this.say(problem.message);
       }

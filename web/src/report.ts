@@ -1,5 +1,26 @@
 // The report in its frame: the page that the command writes, with the script of the command, shown again at every change.
 
+/** Characters of a page that are read in one go: some ten milliseconds. */
+const SLICE = 60_000;
+
+/** A page as a document without scripts, read in slices, so that the page around it answers in between. */
+async function read(page: string): Promise<Document> {
+  const found = document.implementation.createHTMLDocument();
+  found.open();
+  for (let at = 0; at < page.length; at += SLICE) {
+    found.write(page.slice(at, at + SLICE));
+    await pause();
+  }
+  found.close();
+  return found;
+}
+
+/** Lets other tasks go first. */
+function pause(): Promise<void> {
+  const { scheduler } = globalThis as { scheduler?: { yield?: () => Promise<void> } };
+  return scheduler?.yield?.() ?? new Promise((resolve) => { setTimeout(resolve); });
+}
+
 interface Shown {
   state(): unknown;
   resume(state: unknown): void;
@@ -19,7 +40,8 @@ export class ReportView {
   /** Shows a page; where the reader is stays, if `stays`. */
   async show(page: string, stays: boolean): Promise<void> {
     const own = ++this.showing;
-    const parsed = new DOMParser().parseFromString(page, "text/html");
+    const parsed = await read(page);
+    if (own !== this.showing) return;
     const next = document.createElement("iframe");
     next.title = "Report";
     next.className = "next";
@@ -50,8 +72,10 @@ export class ReportView {
   }
 
   /** Shows the motion of another page of the same model. */
-  move(page: string) {
-    const parsed = new DOMParser().parseFromString(page, "text/html");
+  async move(page: string) {
+    const own = this.showing;
+    const parsed = await read(page);
+    if (own !== this.showing) return;
     const data = JSON.parse(parsed.getElementById("data")?.textContent ?? "null");
     if (data?.trajectory && this.window?.shown) this.window.shown.move(parsed, data);
   }

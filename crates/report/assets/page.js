@@ -234,8 +234,9 @@ function setUpClaims() {
 
 /** Formulas wider than the page scroll; those that do can be reached with the keyboard. */
 function lookAtFormulas(root = document) {
-  for (const box of findAll(".formula, .where li, .scroll, .listing", root)) {
-    const isWide = box.scrollWidth > box.clientWidth + 1;
+  // All are measured before one is changed: a change between two measures has the whole page laid out again.
+  const measured = findAll(".formula, .where li, .scroll, .listing", root).map((box) => [box, box.scrollWidth > box.clientWidth + 1]);
+  for (const [box, isWide] of measured) {
     box.classList.toggle("wide", isWide);
     if (isWide) box.tabIndex = 0;
     else box.removeAttribute("tabindex");

@@ -31,6 +31,8 @@ pub const SIDE: usize = 200;
 const HALVINGS: usize = 48;
 /// Where eigenvalues come in opposite pairs none is left of the axis; this part of the largest counts as on it.
 const ON_AXIS: f64 = 1e-7;
+/// The same of a pair that lies on the axis along an edge of the map: simple eigenvalues are known to rounding.
+const ROUNDING: f64 = 1e-13;
 /// Longer equations have decimal coefficients.
 const LONGEST: usize = 400;
 
@@ -290,7 +292,7 @@ impl Grid<'_> {
         let allowed = if self.question.spectrum.paired.is_some() {
             ON_AXIS
         } else {
-            0.0
+            ROUNDING
         };
         match own {
             Some((l, size)) if l.re <= allowed * size => Kind::Stable,
