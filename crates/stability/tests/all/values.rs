@@ -634,7 +634,8 @@ fn at_a_corner_nothing_is_said() {
 /// λ² + √p λ + 2 and λ² + 1 − √p: a pair on the axis for p < 1, whose factor is found though the root stands in both.
 #[test]
 fn pairs_on_the_axis_are_found_beside_roots_of_the_parameter() {
-    let roots: [(&str, fn(f64) -> f64); 4] = [
+    type OfValue = fn(f64) -> f64;
+    let roots: [(&str, OfValue); 4] = [
         ("sqrt(p)", f64::sqrt),
         ("abs(p)", f64::abs),
         ("sqrt(1 + p)", |p| (1.0 + p).sqrt()),
