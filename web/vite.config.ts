@@ -12,7 +12,7 @@ function report(): Plugin {
   const script = () => {
     const parts = ["page.js", "plot.js", "scene.js", "animate.js"].map(read).join("\n");
     const frame = readFileSync(resolve(import.meta.dirname, "src/frame.js"), "utf8");
-    return `"use strict";\nfunction begin() {\n${parts}\nstart();\n${frame}\n}\nparent.postMessage("report-ready", location.origin);\n`;
+    return `"use strict";\nfunction begin() {\n${parts}\n${frame}\nreturn steps();\n}\nparent.postMessage("report-ready", location.origin);\n`;
   };
   return {
     name: "report",

@@ -15,6 +15,30 @@ async function read(page: string): Promise<Document> {
   return found;
 }
 
+/** Elements that are laid out in one go: some ten milliseconds. */
+const PART = 400;
+
+/** Moves what an element holds into another one, and stops after every part. */
+function* moved(from: Element, to: Element): Generator<void> {
+  let count = 0;
+  for (let node = from.firstChild; node; node = from.firstChild) {
+    const size = node instanceof Element ? node.querySelectorAll("*").length : 0;
+    if (node instanceof Element && size > PART && node.localName !== "math" && node.localName !== "svg") {
+      const shell = to.appendChild(to.ownerDocument.importNode(node, false)) as Element;
+      yield* moved(node, shell);
+      node.remove();
+      continue;
+    }
+    to.append(to.ownerDocument.adoptNode(node));
+    count += size + 1;
+    if (count > PART) {
+      count = 0;
+      yield;
+    }
+  }
+  yield;
+}
+
 /** Lets other tasks go first. */
 function pause(): Promise<void> {
   const { scheduler } = globalThis as { scheduler?: { yield?: () => Promise<void> } };
@@ -27,7 +51,7 @@ interface Shown {
   move(other: Document, data: unknown): void;
 }
 
-type FrameWindow = Window & { begin?: () => void; shown?: Shown };
+type FrameWindow = Window & { begin?: () => (() => void)[]; shown?: Shown };
 
 export class ReportView {
   private frame: HTMLIFrameElement | null = null;
@@ -61,8 +85,18 @@ export class ReportView {
     for (const script of parsed.querySelectorAll("script:not([type='application/json'])")) script.remove();
     inside.title = parsed.title;
     inside.documentElement.dataset.theme = document.documentElement.dataset.theme ?? "";
-    inside.body.replaceWith(inside.adoptNode(parsed.body));
-    (next.contentWindow as FrameWindow).begin?.();
+    inside.body.replaceWith(inside.adoptNode(parsed.body.cloneNode(false)));
+    for (const _ of moved(parsed.body, inside.body)) {
+      // What has been moved is laid out now, and not together with all that follows.
+      void inside.body.offsetHeight;
+      await pause();
+      if (own !== this.showing) { next.remove(); return; }
+    }
+    for (const step of (next.contentWindow as FrameWindow).begin?.() ?? []) {
+      step();
+      await pause();
+      if (own !== this.showing) { next.remove(); return; }
+    }
     const state = stays ? this.window?.shown?.state() : undefined;
     if (state) (next.contentWindow as FrameWindow).shown?.resume(state);
     const old = this.frame;

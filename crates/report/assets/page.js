@@ -307,16 +307,12 @@ function setUpPrinting() {
   });
 }
 
+/** What makes a page of the elements, in order; the playground lets other tasks go between. */
+const steps = () => [
+  setUpTheme, setUpCopying, setUpFolding, setUpClaims, setUpFormulas, setUpContents, setUpPrinting, setUpPlots, setUpAnimation, setUpAlbums,
+];
+
 function start() {
-  setUpTheme();
-  setUpCopying();
-  setUpFolding();
-  setUpClaims();
-  setUpFormulas();
-  setUpContents();
-  setUpPrinting();
-  setUpPlots();
-  setUpAnimation();
-  setUpAlbums();
+  for (const step of steps()) step();
 }
 
