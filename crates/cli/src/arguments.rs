@@ -223,7 +223,7 @@ pub(crate) struct Follow {
     #[arg(long, value_name = "PART", default_value_t = 0.05)]
     pub(crate) step: f64,
     /// Write a picture: the motion and its eigenvalues over the parameter, special points named
-    #[arg(long, value_name = "FILE.svg", requires = "over")]
+    #[arg(long, value_name = "FILE.svg", requires = "over", value_parser = drawing, value_hint = clap::ValueHint::FilePath)]
     pub(crate) plot: Option<PathBuf>,
     /// Print JSON: points with their eigenvalues or multipliers, and special points
     #[arg(long)]
@@ -250,7 +250,7 @@ pub(crate) struct Stability {
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     pub(crate) over: Option<String>,
     /// Write a picture: eigenvalues over one parameter, regions of stability over two
-    #[arg(long, value_name = "FILE.svg", requires = "over")]
+    #[arg(long, value_name = "FILE.svg", requires = "over", value_parser = drawing, value_hint = clap::ValueHint::FilePath)]
     pub(crate) plot: Option<PathBuf>,
     /// Print JSON: regions, and critical values with their enclosures
     #[arg(long)]
@@ -519,6 +519,19 @@ fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
         _ => Err("a number of seconds is needed, zero or more".into()),
+    }
+}
+
+/// A file of a picture in lines.
+fn drawing(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_drawing = path
+        .extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case("svg"));
+    if is_drawing {
+        Ok(path)
+    } else {
+        Err("the picture is written as .svg".to_owned())
     }
 }
 
