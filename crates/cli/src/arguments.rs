@@ -523,7 +523,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// A file of a picture in lines.
-fn drawing(text: &str) -> Result<PathBuf, String> {
+fn drawing(text: &str) -> Result<PathBuf, NoDrawing> {
     let path = PathBuf::from(text);
     let is_drawing = path
         .extension()
@@ -531,9 +531,14 @@ fn drawing(text: &str) -> Result<PathBuf, String> {
     if is_drawing {
         Ok(path)
     } else {
-        Err("the picture is written as .svg".to_owned())
+        Err(NoDrawing)
     }
 }
+
+/// The ending of a file is that of no picture in lines.
+#[derive(Debug, thiserror::Error)]
+#[error("the picture is written as .svg")]
+struct NoDrawing;
 
 fn at_least_one(text: &str) -> Result<usize, String> {
     match text.parse() {

@@ -182,40 +182,40 @@ impl Question {
     /// Where in an interval of the parameter that was left in the motion begins or ceases to be real, or to be as the model assumes; none where
     /// that was not decided.
     pub fn ends_of_motion(&self, about: &Expansion<'_>, low: &RBig, high: &RBig) -> Vec<Root> {
-        let Some(symbol) = self.over else {
-            return Vec::new();
-        };
         let g = &about.system.graph;
-        let Reality { real, assumed } =
-            AdmissibleValues::reality(about.system, &about.found, symbol);
-        let roots = [real.functions(), assumed.functions()].concat().into_iter();
-        let roots = roots.filter_map(|e| real_roots(g, e, symbol, low, high));
-        roots.flatten().collect()
+        let all = self.conditions_of(about).into_iter();
+        let ends = all.flat_map(|(symbol, own)| {
+            let of = move |e| real_roots(g, e, symbol, low, high).unwrap_or_default();
+            own.functions().into_iter().flat_map(of)
+        });
+        ends.collect()
     }
 
     /// Whether the motion is proved not to be real, or not to be as the model assumes, at a value of the parameter that was left in.
     pub fn is_absent(&self, about: &Expansion<'_>, at: &RBig) -> bool {
         let g = &about.system.graph;
-        self.over.is_some_and(|symbol| {
-            let Reality { real, assumed } =
-                AdmissibleValues::reality(about.system, &about.found, symbol);
-            [real, assumed]
-                .iter()
-                .any(|own| own.contains(g, at) == Some(false))
-        })
+        let all = self.conditions_of(about);
+        all.iter()
+            .any(|(_, own)| own.contains(g, at) == Some(false))
     }
 
     /// The same at a value that is enclosed, a zero of one of the functions of the boundaries.
     pub fn is_absent_in(&self, about: &Expansion<'_>, root: &Root) -> bool {
         let g = &about.system.graph;
-        self.over.is_some_and(|symbol| {
-            let functions = self.boundary_functions(g);
+        let functions = self.boundary_functions(g);
+        let all = self.conditions_of(about);
+        all.iter()
+            .any(|(_, own)| own.contains_root(g, root, &functions) == Some(false))
+    }
+
+    /// For which values of the parameter that was left in the motion is real, and for which it is as the model assumes.
+    fn conditions_of(&self, about: &Expansion<'_>) -> Vec<(Symbol, AdmissibleValues)> {
+        let of = |symbol: Symbol| {
             let Reality { real, assumed } =
                 AdmissibleValues::reality(about.system, &about.found, symbol);
-            [real, assumed]
-                .iter()
-                .any(|own| own.contains_root(g, root, &functions) == Some(false))
-        })
+            [(symbol, real), (symbol, assumed)]
+        };
+        self.over.into_iter().flat_map(of).collect()
     }
 
     /// Whether an eigenvalue is proved to lie right of the axis at the value of the parameter in an enclosure.

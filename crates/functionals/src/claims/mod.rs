@@ -1,4 +1,14 @@
 //! The claims about functionals, one file each, in a registry.
+//!
+//! What several of them ask is decided in one place each:
+//!
+//! * `admission`, `reduction`, `variations`: which fields are admitted, and whether what is imposed restricts the variations;
+//! * `traces`: whether what is imposed leaves values on the boundary arbitrary, or the model states so (`solvable`), so that natural conditions are taken
+//!   one by one;
+//! * `special_values`: claims for values that the model states, which keep to what is assumed;
+//! * `euler/extension`: a jet refutes only where it is that of a solution; else `euler/separation` looks for fields for which one system holds and not the
+//!   other, and `euler/sufficiency`, where variations are restricted, for an admitted one that changes the functional;
+//! * `potential`: what an expression is the divergence of.
 
 pub mod admission;
 
